@@ -1,0 +1,9 @@
+//! Fills holes in triangle meshes.
+#![deny(rustdoc::broken_intra_doc_links)]
+#![allow(dead_code)] // until the pipeline uses every module
+
+mod error;
+mod math;
+mod patch;
+
+pub use error::{Error, ErrorKind, Result};

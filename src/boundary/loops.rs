@@ -1,0 +1,225 @@
+//! All boundary loops of a mesh, each of them simple.
+
+use super::classify::{LoopClass, classify};
+use crate::math::Vec3;
+use crate::math::plane::fit_plane;
+use crate::mesh::connectivity::{BOUNDARY, origin, target};
+use crate::mesh::rings::{FanEnd, walk_fan};
+use crate::mesh::trimesh::TriMesh;
+use std::collections::BTreeMap;
+
+/// A closed chain of boundary edges that visits no vertex twice.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BoundaryLoop {
+    /// Position in [`BoundaryLoops::loops`].
+    pub id: usize,
+    /// Vertices in the direction in which the triangles along the loop run; edge `i` runs from vertex
+    /// `i` to vertex `i + 1`, the last one back to vertex 0.
+    pub vertices: Vec<u32>,
+    /// Length of the loop, in units of the positions.
+    pub perimeter: f64,
+    /// Half the sum of the cross products of successive vertices, that is the area that the loop
+    /// encloses as seen from each axis. Points to the side from which the loop runs
+    /// counter-clockwise.
+    pub vector_area: [f64; 3],
+    /// Length of the diagonal of the loop's bounding box.
+    pub diameter: f64,
+    /// Root mean square distance of the vertices to their plane of least squares, divided by the root
+    /// mean square distance to their centroid: 0 for a planar loop, at most about 0.58.
+    pub planarity: f64,
+    /// What kind of boundary this is.
+    pub class: LoopClass,
+    /// Boundary halfedges, edge by edge.
+    pub(crate) halfedges: Vec<u32>,
+    /// Corners of the bounding box.
+    pub(crate) low: Vec3,
+    pub(crate) high: Vec3,
+}
+
+impl BoundaryLoop {
+    /// One directed edge of the loop, as in its triangle: it names the loop in selections.
+    #[must_use]
+    pub fn edge(&self) -> [u32; 2] {
+        [self.vertices[0], self.vertices[1 % self.vertices.len()]]
+    }
+
+    /// Number of edges, which is also the number of vertices.
+    #[must_use]
+    pub fn edge_count(&self) -> usize {
+        self.vertices.len()
+    }
+}
+
+/// The boundary of a mesh.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BoundaryLoops {
+    /// All loops, ordered by the lowest halfedge that each contains (that is by the lowest triangle along
+    /// it, and in this triangle by corner). Each loop starts with that halfedge.
+    pub loops: Vec<BoundaryLoop>,
+}
+
+impl BoundaryLoops {
+    /// Finds all boundary loops of `mesh`.
+    ///
+    /// The boundary is followed through the triangles round each vertex. Where it visits a vertex
+    /// twice it is cut there, so that every loop is simple: two holes that touch in a vertex are two
+    /// loops. Where it runs into an edge with three or more triangles it cannot be followed; such a
+    /// piece is listed with [`LoopClass::OpenChain`].
+    ///
+    /// # Complexity
+    /// One sweep over the halfedges, then linear in the number of boundary edges and the valence of
+    /// their vertices.
+    #[must_use]
+    pub fn find(mesh: &TriMesh) -> Self {
+        let boundary = mesh.connectivity().boundary_halfedges();
+        let mut visited = vec![false; boundary.len()];
+        let mut chains = Vec::new();
+        for (i, &start) in boundary.iter().enumerate() {
+            if visited[i] {
+                continue;
+            }
+            let chain = follow(mesh, start);
+            for edge in &chain.edges {
+                if let Ok(k) = boundary.binary_search(&edge.halfedge) {
+                    visited[k] = true;
+                }
+            }
+            if chain.is_closed {
+                split_at_repeated_vertices(chain, &mut chains);
+            } else {
+                chains.push(chain);
+            }
+        }
+        for chain in chains.iter_mut().filter(|c| c.is_closed) {
+            let count = chain.edges.len();
+            let lowest = (0..count).min_by_key(|&i| chain.edges[i].halfedge).unwrap_or(0);
+            chain.edges.rotate_left(lowest);
+        }
+        chains.sort_by_key(|c| c.edges.iter().map(|e| e.halfedge).min());
+        let mut loops: Vec<BoundaryLoop> =
+            chains.iter().enumerate().map(|(id, chain)| measure(mesh, id, chain)).collect();
+        classify(mesh, &mut loops);
+        Self { loops }
+    }
+
+    /// The loop that contains the directed boundary edge `edge`, as in its triangle.
+    #[must_use]
+    pub fn with_edge(&self, edge: [u32; 2]) -> Option<&BoundaryLoop> {
+        self.loops.iter().find(|l| {
+            let n = l.vertices.len();
+            (0..n).any(|i| l.vertices[i] == edge[0] && l.vertices[(i + 1) % n] == edge[1])
+        })
+    }
+}
+
+/// A boundary edge as it is passed when the boundary is followed.
+#[derive(Clone, Copy, Debug)]
+struct ChainEdge {
+    halfedge: u32,
+    /// Vertex where the edge is entered: its halfedge's origin, unless the triangles along the boundary
+    /// are not oriented alike.
+    from: u32,
+}
+
+#[derive(Debug)]
+struct Chain {
+    edges: Vec<ChainEdge>,
+    is_closed: bool,
+}
+
+fn other_end(mesh: &TriMesh, halfedge: u32, vertex: u32) -> u32 {
+    let start = origin(mesh.triangles(), halfedge);
+    if start == vertex { target(mesh.triangles(), halfedge) } else { start }
+}
+
+/// Follows the boundary from the halfedge `start` forwards, and backwards too if it is not closed.
+fn follow(mesh: &TriMesh, start: u32) -> Chain {
+    let from = origin(mesh.triangles(), start);
+    let mut edges = vec![ChainEdge { halfedge: start, from }];
+    let leave = |halfedge: u32, vertex: u32, edges: &mut Vec<ChainEdge>| {
+        let (mut halfedge, mut vertex) = (halfedge, vertex);
+        loop {
+            match walk_fan(mesh, vertex, halfedge, |_| {}) {
+                FanEnd::At(h) if mesh.connectivity().twin(h) == BOUNDARY => {
+                    if h == start {
+                        return true;
+                    }
+                    edges.push(ChainEdge { halfedge: h, from: vertex });
+                    (halfedge, vertex) = (h, other_end(mesh, h, vertex));
+                }
+                _ => return false,
+            }
+        }
+    };
+    let is_closed = leave(start, other_end(mesh, start, from), &mut edges);
+    if !is_closed {
+        let mut before = Vec::new();
+        leave(start, from, &mut before);
+        for e in &mut before {
+            e.from = other_end(mesh, e.halfedge, e.from);
+        }
+        before.reverse();
+        before.append(&mut edges);
+        edges = before;
+    }
+    Chain { edges, is_closed }
+}
+
+/// Cuts a closed chain at the vertices that it visits more than once.
+fn split_at_repeated_vertices(chain: Chain, simple: &mut Vec<Chain>) {
+    let mut sorted: Vec<u32> = chain.edges.iter().map(|e| e.from).collect();
+    sorted.sort_unstable();
+    if sorted.windows(2).all(|w| w[0] != w[1]) {
+        simple.push(chain);
+        return;
+    }
+    let mut path: Vec<ChainEdge> = Vec::new();
+    let mut place_of = BTreeMap::new();
+    for edge in chain.edges {
+        if let Some(&place) = place_of.get(&edge.from) {
+            let cut = path.split_off(place);
+            for e in &cut {
+                place_of.remove(&e.from);
+            }
+            simple.push(Chain { edges: cut, is_closed: true });
+        }
+        place_of.insert(edge.from, path.len());
+        path.push(edge);
+    }
+    simple.push(Chain { edges: path, is_closed: true });
+}
+
+fn measure(mesh: &TriMesh, id: usize, chain: &Chain) -> BoundaryLoop {
+    let halfedges: Vec<u32> = chain.edges.iter().map(|e| e.halfedge).collect();
+    let vertices: Vec<u32> = chain.edges.iter().map(|e| e.from).collect();
+    let points: Vec<Vec3> = vertices.iter().map(|&v| mesh.point(v)).collect();
+    let mut perimeter = 0.0;
+    let mut area = Vec3::zeros();
+    let (mut low, mut high) = (points[0], points[0]);
+    for (i, p) in points.iter().enumerate() {
+        let q = points[(i + 1) % points.len()];
+        perimeter += (q - p).norm();
+        area += (p - points[0]).cross(&(q - points[0])) / 2.0;
+        low = low.inf(p);
+        high = high.sup(p);
+    }
+    let spread = fit_plane(&points).map_or([0.0; 3], |plane| plane.spread);
+    let total = spread.iter().map(|s| s * s).sum::<f64>().sqrt();
+    let is_oriented = chain.edges.iter().all(|e| origin(mesh.triangles(), e.halfedge) == e.from);
+    BoundaryLoop {
+        id,
+        perimeter,
+        vector_area: area.into(),
+        diameter: (high - low).norm(),
+        planarity: if total > 0.0 { spread[2] / total } else { 0.0 },
+        class: match (chain.is_closed, is_oriented) {
+            (false, _) => LoopClass::OpenChain,
+            (true, false) => LoopClass::NotOriented,
+            (true, true) => LoopClass::Simple,
+        },
+        vertices,
+        halfedges,
+        low,
+        high,
+    }
+}

@@ -1,0 +1,72 @@
+//! The names of the fill methods.
+
+use crate::error::{Error, ErrorKind};
+use std::fmt;
+use std::str::FromStr;
+
+/// A way to fill a hole.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Method {
+    /// The library's choice: at present [`Method::FairC1`].
+    #[default]
+    Auto,
+    /// Minimum-weight triangulation of the rim, without new vertices.
+    Flat,
+    /// Refined to the rim's density, then a membrane: continuous with the surroundings.
+    Membrane,
+    /// Refined, then faired to meet the surroundings with a common tangent plane.
+    FairC1,
+    /// Refined, then faired to meet the surroundings with common curvature.
+    FairC2,
+}
+
+impl Method {
+    /// All methods.
+    pub const ALL: [Self; 5] =
+        [Self::Auto, Self::Flat, Self::Membrane, Self::FairC1, Self::FairC2];
+
+    /// The name used on the command line and in reports.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Flat => "flat",
+            Self::Membrane => "membrane",
+            Self::FairC1 => "fair-c1",
+            Self::FairC2 => "fair-c2",
+        }
+    }
+
+    /// What the method does, in one line.
+    #[must_use]
+    pub fn summary(self) -> &'static str {
+        match self {
+            Self::Auto => "the library's choice (at present fair-c1)",
+            Self::Flat => "minimum-weight triangulation of the rim, no new vertices",
+            Self::Membrane => "refine to the rim's density, then a membrane (meets the rim, may crease there)",
+            Self::FairC1 => "refine, then fair with a common tangent plane along the rim",
+            Self::FairC2 => "refine, then fair with common curvature along the rim",
+        }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for Method {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Self, Error> {
+        Self::ALL.into_iter().find(|m| m.name() == name).ok_or_else(|| {
+            let names: Vec<&str> = Self::ALL.iter().map(|m| m.name()).collect();
+            Error::new(
+                ErrorKind::InvalidInput,
+                format!("unknown method '{name}'; the methods are {}", names.join(", ")),
+            )
+        })
+    }
+}

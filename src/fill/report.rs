@@ -1,0 +1,93 @@
+//! What happened to each hole.
+
+use super::method::Method;
+use crate::boundary::classify::LoopClass;
+use std::ops::Range;
+
+/// How the filling of one hole ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum HoleStatus {
+    /// The hole is closed.
+    Filled,
+    /// The hole was not asked to be filled.
+    Kept,
+    /// No method gave an acceptable patch; the hole is as it was.
+    Failed,
+    /// The caller stopped before the hole was filled; it is as it was.
+    Cancelled,
+}
+
+impl HoleStatus {
+    /// The name used in tables and reports.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Filled => "filled",
+            Self::Kept => "kept",
+            Self::Failed => "failed",
+            Self::Cancelled => "cancelled",
+        }
+    }
+}
+
+/// A method that was tried on a hole and not used, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Attempt {
+    /// The method.
+    pub method: Method,
+    /// Why its patch was not used.
+    pub reason: String,
+}
+
+/// What happened to one hole.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HoleReport {
+    /// The loop's position in [`crate::BoundaryLoops::loops`].
+    pub id: usize,
+    /// One directed boundary edge of the loop before the fill.
+    pub edge: [u32; 2],
+    /// Number of boundary edges.
+    pub edges: usize,
+    /// Length of the loop.
+    pub perimeter: f64,
+    /// Kind of the loop.
+    pub class: LoopClass,
+    /// How it ended.
+    pub status: HoleStatus,
+    /// Why: for a filled hole what remains to be said (empty when nothing does).
+    pub reason: String,
+    /// The method whose patch closes the hole.
+    pub method: Option<Method>,
+    /// Methods tried before, in order.
+    pub tried: Vec<Attempt>,
+    /// New vertices, as a range of indices into the filled mesh.
+    pub new_vertices: Range<u32>,
+    /// New triangles, as a range of indices into the filled mesh.
+    pub new_triangles: Range<u32>,
+    /// Pairs of triangles that intersect, one of them new.
+    pub self_intersections: usize,
+    /// Smallest angle of the new triangles in radians.
+    pub min_angle: Option<f64>,
+    /// Time spent on the hole, in seconds.
+    pub seconds: f64,
+}
+
+/// What happened to all holes of a mesh.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FillReport {
+    /// One entry for each boundary loop, in the order of [`crate::BoundaryLoops::loops`].
+    pub holes: Vec<HoleReport>,
+    /// Time spent to index the mesh for the intersection tests, in seconds.
+    pub index_seconds: f64,
+    /// Time spent to fill, in seconds, without the index.
+    pub fill_seconds: f64,
+}
+
+impl FillReport {
+    /// Number of holes with this status.
+    #[must_use]
+    pub fn count(&self, status: HoleStatus) -> usize {
+        self.holes.iter().filter(|h| h.status == status).count()
+    }
+}

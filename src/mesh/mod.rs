@@ -1,0 +1,7 @@
+//! Triangle meshes: indices, positions and attributes, and who is whose neighbour.
+
+pub(crate) mod attributes;
+pub(crate) mod connectivity;
+pub(crate) mod defects;
+pub(crate) mod rings;
+pub(crate) mod trimesh;

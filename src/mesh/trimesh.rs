@@ -1,0 +1,179 @@
+//! A triangle mesh that was validated when it was built.
+
+use super::attributes::Attributes;
+use super::connectivity::Connectivity;
+use super::defects::MeshDefects;
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::Vec3;
+
+/// A triangle mesh with attributes, built and validated once.
+///
+/// Non-manifold edges, isolated vertices, duplicate and degenerate triangles, inconsistent orientation
+/// and several components are all allowed: they are kept as they are and listed by
+/// [`TriMesh::defects`]. Vertices and triangles are never changed, moved or reordered; filling holes
+/// only appends.
+#[derive(Clone, Debug)]
+pub struct TriMesh {
+    positions: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+    vertex_attributes: Attributes,
+    face_attributes: Attributes,
+    connectivity: Connectivity,
+    defects: MeshDefects,
+}
+
+impl TriMesh {
+    /// Builds a mesh without attributes.
+    ///
+    /// # Errors
+    /// [`ErrorKind::InvalidInput`] when a coordinate is not finite, a triangle names a vertex that does
+    /// not exist, or there are more vertices or halfedges than 32-bit indices can name
+    /// (about 1.4 billion triangles).
+    ///
+    /// # Complexity
+    /// Linear in the number of vertices and triangles; no hashing.
+    pub fn new(positions: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self> {
+        let vertex_attributes = Attributes::new(positions.len());
+        let face_attributes = Attributes::new(triangles.len());
+        Self::with_attributes(positions, triangles, vertex_attributes, face_attributes)
+    }
+
+    /// Builds a mesh that carries attributes per vertex and per triangle.
+    ///
+    /// # Errors
+    /// As [`TriMesh::new`], and [`ErrorKind::InvalidInput`] when the attributes are not as long as
+    /// what they belong to.
+    pub fn with_attributes(
+        positions: Vec<[f64; 3]>,
+        triangles: Vec<[u32; 3]>,
+        vertex_attributes: Attributes,
+        face_attributes: Attributes,
+    ) -> Result<Self> {
+        check_sizes(&positions, &triangles, &vertex_attributes, &face_attributes)?;
+        check_values(&positions, &triangles)?;
+        let (connectivity, defects) = Connectivity::build(positions.len(), &triangles);
+        Ok(Self {
+            positions,
+            triangles,
+            vertex_attributes,
+            face_attributes,
+            connectivity,
+            defects,
+        })
+    }
+
+    /// Vertex positions.
+    #[must_use]
+    pub fn positions(&self) -> &[[f64; 3]] {
+        &self.positions
+    }
+
+    /// Vertex indices of every triangle.
+    #[must_use]
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// Attributes of the vertices.
+    #[must_use]
+    pub fn vertex_attributes(&self) -> &Attributes {
+        &self.vertex_attributes
+    }
+
+    /// Attributes of the triangles.
+    #[must_use]
+    pub fn face_attributes(&self) -> &Attributes {
+        &self.face_attributes
+    }
+
+    /// What was irregular when the mesh was built.
+    #[must_use]
+    pub fn defects(&self) -> &MeshDefects {
+        &self.defects
+    }
+
+    /// Gives the arrays back: positions, triangles, vertex and face attributes.
+    #[must_use]
+    pub fn into_parts(self) -> (Vec<[f64; 3]>, Vec<[u32; 3]>, Attributes, Attributes) {
+        (self.positions, self.triangles, self.vertex_attributes, self.face_attributes)
+    }
+
+    pub(crate) fn connectivity(&self) -> &Connectivity {
+        &self.connectivity
+    }
+
+    pub(crate) fn point(&self, vertex: u32) -> Vec3 {
+        Vec3::from(self.positions[vertex as usize])
+    }
+
+    pub(crate) fn corners(&self, face: u32) -> [Vec3; 3] {
+        self.triangles[face as usize].map(|v| self.point(v))
+    }
+
+    /// Appends vertices and triangles; the caller extends the attributes by as many entries.
+    ///
+    /// Cost follows what is appended. See [`Connectivity::append`] for what is required.
+    pub(crate) fn append(
+        &mut self,
+        points: &[[f64; 3]],
+        triangles: &[[u32; 3]],
+        extend_attributes: impl FnOnce(&mut Attributes, &mut Attributes),
+    ) {
+        let first_face = self.triangles.len();
+        self.positions.extend_from_slice(points);
+        self.triangles.extend_from_slice(triangles);
+        extend_attributes(&mut self.vertex_attributes, &mut self.face_attributes);
+        debug_assert_eq!(self.vertex_attributes.len(), self.positions.len());
+        debug_assert_eq!(self.face_attributes.len(), self.triangles.len());
+        self.connectivity.append(&self.triangles, first_face);
+    }
+}
+
+fn invalid(message: String) -> Error {
+    Error::new(ErrorKind::InvalidInput, message)
+}
+
+fn check_sizes(
+    positions: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+    vertex_attributes: &Attributes,
+    face_attributes: &Attributes,
+) -> Result<()> {
+    // Three values at the top of the range mark links that are no halfedge.
+    if positions.len() >= u32::MAX as usize || triangles.len() >= (u32::MAX as usize - 3) / 3 {
+        return Err(invalid(format!(
+            "{} vertices and {} triangles are more than 32-bit indices can name",
+            positions.len(),
+            triangles.len()
+        )));
+    }
+    for (what, attributes, expected) in [
+        ("vertex", vertex_attributes, positions.len()),
+        ("face", face_attributes, triangles.len()),
+    ] {
+        if attributes.len() != expected {
+            return Err(invalid(format!(
+                "the {what} attributes have {} entries where {expected} are needed",
+                attributes.len()
+            )));
+        }
+    }
+    Ok(())
+}
+
+fn check_values(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<()> {
+    let not_finite = |p: &[f64; 3]| !p.iter().all(|c| c.is_finite());
+    if let Some(v) = positions.iter().position(not_finite) {
+        let [x, y, z] = positions[v];
+        return Err(invalid(format!("vertex {v} is not finite: ({x}, {y}, {z})")));
+    }
+    let count = positions.len() as u32;
+    let out_of_range = |t: &[u32; 3]| t.iter().any(|&v| v >= count);
+    if let Some(f) = triangles.iter().position(out_of_range) {
+        return Err(invalid(format!(
+            "triangle {f} names vertices {:?}, but there are only {count}",
+            triangles[f]
+        )));
+    }
+    Ok(())
+}

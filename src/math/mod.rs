@@ -1,6 +1,7 @@
 //! Vectors, planes and the sparse solver: no mesh, no hole.
 
 pub(crate) mod plane;
+pub(crate) mod sparse;
 
 /// A point or direction; the type that all geometry is computed in.
 pub(crate) type Vec3 = nalgebra::Vector3<f64>;

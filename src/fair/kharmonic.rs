@@ -13,7 +13,8 @@
 //!   with the surroundings' tangent planes;
 //! * order 3: `gᵀ L g` with `g = M⁻¹ L x` over the interior, rim and ring 1 vertices, for their curvature.
 //!
-//! Vertices whose triangles do not close (on another boundary, say) contribute no energy.
+//! In `L` as a quadratic form, negative weights count as zero: the form stays definite where the triangles
+//! could not be made Delaunay. Vertices whose triangles do not close (on another boundary, say) contribute no energy.
 //!
 //! Not guaranteed: that the result has no self-intersection, nor that it stays near the rim.
 
@@ -113,8 +114,9 @@ impl<'a> Operator<'a> {
         let mut diagonal = 0.0;
         for e in self.domain.row(vertex) {
             if self.is_summed[e.column as usize] {
-                diagonal += e.weight;
-                out.add(e.column, -factor * e.weight);
+                let weight = e.weight.max(0.0);
+                diagonal += weight;
+                out.add(e.column, -factor * weight);
             }
         }
         out.add(vertex as u32, factor * diagonal);
@@ -209,13 +211,14 @@ fn membrane_equations(domain: &Domain, rim_values: &[Vec3]) -> (SymmetricMatrix,
         matrix.values.push(0.0);
         let mut sum = Vec3::zeros();
         for e in domain.row(v) {
-            matrix.values[diagonal_at] += e.weight;
+            let weight = e.weight.max(0.0);
+            matrix.values[diagonal_at] += weight;
             let u = e.column as usize;
             if u < domain.rim_count {
-                sum += e.weight * rim_values[u];
+                sum += weight * rim_values[u];
             } else if u > v {
                 matrix.rows.push((u - domain.rim_count) as u32);
-                matrix.values.push(-e.weight);
+                matrix.values.push(-weight);
             }
         }
         right_side.push(sum);

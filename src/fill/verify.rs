@@ -6,22 +6,32 @@ use crate::math::cross_normal;
 use crate::mesh::connectivity::BOUNDARY;
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::PatchSurface;
+use crate::quality::spatial::Aabb;
 
 /// A triangle has no area when its double area is below this share of the squared rim edge length, which
 /// is the unit of the hole's coordinates.
 const SMALLEST_DOUBLE_AREA: f64 = 2e-10;
 
+/// A patch that goes further from the middle of its rim than this many diameters of the rim has run away.
+const FARTHEST: f64 = 1.0;
+
 /// Checks the patch by itself and against the rim.
 ///
 /// Every rim edge must have one triangle, which runs along it as the polygon does; every other edge two
 /// triangles of opposite direction, and no counterpart in the mesh; no triangle may be degenerate or
-/// without area; all points must be finite.
+/// without area; all points must be finite and near the hole.
 ///
 /// # Errors
 /// [`ErrorKind::Topology`] or [`ErrorKind::Geometry`] with the first violation found.
 pub(crate) fn check_patch(hole: &Hole, surface: &PatchSurface) -> Result<()> {
     if let Some(v) = surface.points.iter().position(|p| !p.iter().all(|c| c.is_finite())) {
         return Err(geometry(format!("new vertex {v} is not finite")));
+    }
+    let rim = Aabb::around(&hole.points);
+    let limit = FARTHEST * (rim.hi - rim.lo).norm();
+    let middle = (rim.hi + rim.lo) / 2.0;
+    if surface.points.iter().any(|p| (p - middle).norm() > limit) {
+        return Err(geometry("the patch runs away from the hole".to_owned()));
     }
     let m = hole.polygon.len();
     let mut rim_edges: Vec<(u32, u32)> = (0..m)

@@ -1,0 +1,3 @@
+//! The triangle mesh and what is attached to it.
+
+pub(crate) mod attributes;

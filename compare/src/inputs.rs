@@ -40,7 +40,11 @@ fn write(dir: &Path, input: Input) -> Result<()> {
     let folder = dir.join(input.name);
     fs::create_dir_all(&folder)?;
     ply::write(&folder.join("input.ply"), &input.mesh)?;
-    let keep_loops: Vec<_> = input.keep.iter().map(|edge| json!({ "edge": edge })).collect();
+    let keep_loops: Vec<_> = input
+        .keep
+        .iter()
+        .map(|edge| json!({ "edge": edge }))
+        .collect();
     let meta = json!({
         "name": input.name,
         "n_triangles": input.mesh.triangles.len(),
@@ -69,7 +73,10 @@ fn compact(points: Vec<[f64; 3]>, mut triangles: Vec<[u32; 3]>) -> Mesh {
     for v in triangles.iter_mut().flatten() {
         *v = index[*v as usize];
     }
-    Mesh { points: used, triangles }
+    Mesh {
+        points: used,
+        triangles,
+    }
 }
 
 /// The two triangles of the cell with corners (i, j) and (i + 1, j + 1), counter-clockwise, split
@@ -88,7 +95,9 @@ fn lattice_distance(a: (usize, usize), b: (usize, usize)) -> usize {
 /// Whether a triangle of the lattice lies in the hexagon of that many steps, whose rim has six
 /// times as many edges.
 fn in_hexagon(corners: &[(usize, usize); 3], centre: (usize, usize), steps: usize) -> bool {
-    corners.iter().all(|&corner| lattice_distance(corner, centre) <= steps)
+    corners
+        .iter()
+        .all(|&corner| lattice_distance(corner, centre) <= steps)
 }
 
 /// A closed bumpy sphere of `2 n^2` triangles less `holes` hexagons of 36 edges: a square grid
@@ -99,13 +108,27 @@ fn many_holes(name: &'static str, n: usize, holes: usize) -> Input {
     let spacing = n as f64 / side as f64;
     let centre_of = |k: usize| (((k as f64) + 0.5) * spacing) as usize;
     let vertex = |(i, j): (usize, usize)| {
-        let (i, j) = if j == 0 || j == n { (i.min(n - i), j) } else { (i, j) };
-        let (i, j) = if i == 0 || i == n { (i, j.min(n - j)) } else { (i, j) };
-        let (i, j) = if (i == 0 || i == n) && (j == 0 || j == n) { (0, 0) } else { (i, j) };
+        let (i, j) = if j == 0 || j == n {
+            (i.min(n - i), j)
+        } else {
+            (i, j)
+        };
+        let (i, j) = if i == 0 || i == n {
+            (i, j.min(n - j))
+        } else {
+            (i, j)
+        };
+        let (i, j) = if (i == 0 || i == n) && (j == 0 || j == n) {
+            (0, 0)
+        } else {
+            (i, j)
+        };
         (j * (n + 1) + i) as u32
     };
     let grid = (0..=n).flat_map(|j| (0..=n).map(move |i| (i, j)));
-    let points = grid.map(|(i, j)| bumpy_sphere(i as f64 / n as f64, j as f64 / n as f64)).collect();
+    let points = grid
+        .map(|(i, j)| bumpy_sphere(i as f64 / n as f64, j as f64 / n as f64))
+        .collect();
     let cells = (0..n).flat_map(|j| (0..n).map(move |i| (i, j)));
     let in_hole = |corners: &[(usize, usize); 3]| {
         let (i, j) = corners[0];
@@ -119,7 +142,13 @@ fn many_holes(name: &'static str, n: usize, holes: usize) -> Input {
         .filter(|corners| !in_hole(corners))
         .map(|corners| corners.map(vertex))
         .collect();
-    Input { name, mesh: compact(points, triangles), keep: None, holes, hole_edges: 6 * STEPS }
+    Input {
+        name,
+        mesh: compact(points, triangles),
+        keep: None,
+        holes,
+        hole_edges: 6 * STEPS,
+    }
 }
 
 /// The octahedral map of the unit square, with bumps.
@@ -146,11 +175,18 @@ fn slit(name: &'static str, edges: usize) -> Input {
     let point = |i: usize, j: usize| {
         let (x, y) = (i as f64, j as f64);
         let across = y + 15.0 * (TAU * x / 200.0).sin();
-        [x, across, 4.0 * (TAU * x / 90.0).sin() + 0.8 * (TAU * (across + 0.3 * x) / 31.0).cos()]
+        [
+            x,
+            across,
+            4.0 * (TAU * x / 90.0).sin() + 0.8 * (TAU * (across + 0.3 * x) / 31.0).cos(),
+        ]
     };
-    let points = (0..=rows).flat_map(|j| (0..=columns).map(move |i| point(i, j))).collect();
+    let points = (0..=rows)
+        .flat_map(|j| (0..=columns).map(move |i| point(i, j)))
+        .collect();
     let in_slit = |i: usize, j: usize| {
-        (SLIT_MARGIN..SLIT_MARGIN + length).contains(&i) && (SLIT_MARGIN..SLIT_MARGIN + WIDTH).contains(&j)
+        (SLIT_MARGIN..SLIT_MARGIN + length).contains(&i)
+            && (SLIT_MARGIN..SLIT_MARGIN + WIDTH).contains(&j)
     };
     let triangles = (0..rows)
         .flat_map(|j| (0..columns).map(move |i| (i, j)))
@@ -159,7 +195,13 @@ fn slit(name: &'static str, edges: usize) -> Input {
         .map(|corners| corners.map(vertex))
         .collect();
     let mesh = compact(points, triangles);
-    Input { name, mesh, keep: Some([0, 1]), holes: 1, hole_edges: 2 * (length + WIDTH) }
+    Input {
+        name,
+        mesh,
+        keep: Some([0, 1]),
+        holes: 1,
+        hole_edges: 2 * (length + WIDTH),
+    }
 }
 
 /// A band of triangles on the unit sphere around a cap with five lobes whose rim has `edges` edges.
@@ -169,9 +211,15 @@ fn rim(name: &'static str, edges: usize) -> Input {
     let point = |column: usize, row: usize| {
         let phi = TAU * (column as f64 + row as f64 / 2.0) / edges as f64;
         let theta = 1.0 + 0.15 * (5.0 * phi).cos() + row as f64 * row_height;
-        [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
+        [
+            theta.sin() * phi.cos(),
+            theta.sin() * phi.sin(),
+            theta.cos(),
+        ]
     };
-    let points = (0..=RING_ROWS).flat_map(|r| (0..edges).map(move |c| point(c, r))).collect();
+    let points = (0..=RING_ROWS)
+        .flat_map(|r| (0..edges).map(move |c| point(c, r)))
+        .collect();
     let vertex = |column: usize, row: usize| (row * edges + column % edges) as u32;
     let triangles = (0..RING_ROWS)
         .flat_map(|r| (0..edges).map(move |c| (c, r)))
@@ -182,7 +230,13 @@ fn rim(name: &'static str, edges: usize) -> Input {
         })
         .collect();
     let keep = Some([vertex(0, RING_ROWS), vertex(1, RING_ROWS)]);
-    Input { name, mesh: Mesh { points, triangles }, keep, holes: 1, hole_edges: edges }
+    Input {
+        name,
+        mesh: Mesh { points, triangles },
+        keep,
+        holes: 1,
+        hole_edges: edges,
+    }
 }
 
 /// A wavy sheet of `2 n^2` triangles with a hole of 60 edges in its middle. Positions are measured
@@ -195,7 +249,9 @@ fn sheet(name: &'static str, n: usize) -> Input {
         let (x, y) = (i as f64 - centre.0 as f64, j as f64 - centre.1 as f64);
         [x, y, 2.0 * (TAU * x / 40.0).sin() * (PI * y / 25.0).cos()]
     };
-    let points = (0..=n).flat_map(|j| (0..=n).map(move |i| point(i, j))).collect();
+    let points = (0..=n)
+        .flat_map(|j| (0..=n).map(move |i| point(i, j)))
+        .collect();
     let triangles = (0..n)
         .flat_map(|j| (0..n).map(move |i| (i, j)))
         .flat_map(|(i, j)| cell(i, j))
@@ -203,7 +259,13 @@ fn sheet(name: &'static str, n: usize) -> Input {
         .map(|corners| corners.map(vertex))
         .collect();
     let mesh = compact(points, triangles);
-    Input { name, mesh, keep: Some([0, 1]), holes: 1, hole_edges: 6 * STEPS }
+    Input {
+        name,
+        mesh,
+        keep: Some([0, 1]),
+        holes: 1,
+        hole_edges: 6 * STEPS,
+    }
 }
 
 #[cfg(test)]
@@ -218,10 +280,19 @@ mod tests {
             .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
             .collect();
         edges.sort_unstable();
-        assert!(edges.windows(2).all(|pair| pair[0] != pair[1]), "an edge used twice the same way");
-        let boundary: Vec<[u32; 2]> =
-            edges.iter().copied().filter(|[a, b]| edges.binary_search(&[*b, *a]).is_err()).collect();
-        assert!(boundary.windows(2).all(|pair| pair[0][0] != pair[1][0]), "a pinched vertex");
+        assert!(
+            edges.windows(2).all(|pair| pair[0] != pair[1]),
+            "an edge used twice the same way"
+        );
+        let boundary: Vec<[u32; 2]> = edges
+            .iter()
+            .copied()
+            .filter(|[a, b]| edges.binary_search(&[*b, *a]).is_err())
+            .collect();
+        assert!(
+            boundary.windows(2).all(|pair| pair[0][0] != pair[1][0]),
+            "a pinched vertex"
+        );
         let mut seen = vec![false; boundary.len()];
         let mut loops = Vec::new();
         for start in 0..boundary.len() {
@@ -253,13 +324,21 @@ mod tests {
                 at.is_some_and(|at| corners[(at + 1) % corners.len()] == b)
             })
         };
-        assert_eq!(loops.iter().filter(|l| kept(l)).count(), usize::from(input.keep.is_some()));
+        assert_eq!(
+            loops.iter().filter(|l| kept(l)).count(),
+            usize::from(input.keep.is_some())
+        );
         let holes: Vec<usize> = loops.iter().filter(|l| !kept(l)).map(Vec::len).collect();
         assert_eq!(holes, vec![input.hole_edges; input.holes]);
         assert_eq!(euler(&input.mesh, &loops), 2, "a sphere with holes");
         assert!(input.mesh.points.iter().flatten().all(|x| x.is_finite()));
         let mut used = vec![false; input.mesh.points.len()];
-        input.mesh.triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
+        input
+            .mesh
+            .triangles
+            .iter()
+            .flatten()
+            .for_each(|&v| used[v as usize] = true);
         assert!(used.into_iter().all(|used| used));
     }
 

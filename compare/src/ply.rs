@@ -59,13 +59,20 @@ struct Bytes<'a> {
 
 impl<'a> Bytes<'a> {
     fn take<const N: usize>(&mut self) -> Result<[u8; N]> {
-        let (head, rest) = self.rest.split_first_chunk().ok_or("the PLY file is cut short")?;
+        let (head, rest) = self
+            .rest
+            .split_first_chunk()
+            .ok_or("the PLY file is cut short")?;
         self.rest = rest;
         Ok(*head)
     }
 
     fn line(&mut self) -> Result<&'a str> {
-        let end = self.rest.iter().position(|&b| b == b'\n').ok_or("the PLY header has no end")?;
+        let end = self
+            .rest
+            .iter()
+            .position(|&b| b == b'\n')
+            .ok_or("the PLY header has no end")?;
         let line = std::str::from_utf8(&self.rest[..end])?.trim();
         self.rest = &self.rest[end + 1..];
         Ok(line)
@@ -106,7 +113,9 @@ fn header(bytes: &mut Bytes<'_>) -> Result<Vec<Element>> {
                     [scalar] => (None, scalar),
                     _ => return Err("a PLY property that is not understood".into()),
                 };
-                let element = elements.last_mut().ok_or("a PLY property before any element")?;
+                let element = elements
+                    .last_mut()
+                    .ok_or("a PLY property before any element")?;
                 element.properties.push(Property {
                     name: (*name).to_owned(),
                     count,
@@ -123,18 +132,26 @@ fn row(bytes: &mut Bytes<'_>, element: &Element, mesh: &mut Mesh) -> Result<()> 
     for property in &element.properties {
         let Some(count) = property.count else {
             let value = bytes.scalar(property.scalar)?;
-            if let Some(axis) = ["x", "y", "z"].iter().position(|name| *name == property.name) {
+            if let Some(axis) = ["x", "y", "z"]
+                .iter()
+                .position(|name| *name == property.name)
+            {
                 point[axis] = value;
             }
             continue;
         };
         let count = bytes.scalar(count)? as usize;
-        let values = (0..count).map(|_| bytes.scalar(property.scalar)).collect::<Result<Vec<_>>>()?;
+        let values = (0..count)
+            .map(|_| bytes.scalar(property.scalar))
+            .collect::<Result<Vec<_>>>()?;
         if element.name == "face" && property.name.starts_with("vertex_ind") {
             let [a, b, c] = values[..] else {
                 return Err("a face that is not a triangle".into());
             };
-            if [a, b, c].iter().any(|&v| v < 0.0 || v >= mesh.points.len() as f64) {
+            if [a, b, c]
+                .iter()
+                .any(|&v| v < 0.0 || v >= mesh.points.len() as f64)
+            {
                 return Err("a face names a vertex that does not exist".into());
             }
             mesh.triangles.push([a as u32, b as u32, c as u32]);
@@ -160,7 +177,10 @@ fn parse(data: &[u8]) -> Result<Mesh> {
 fn bytes_of(mesh: &Mesh) -> Vec<u8> {
     let mut head = String::from("ply\nformat binary_little_endian 1.0\n");
     let (vertices, faces) = (mesh.points.len(), mesh.triangles.len());
-    let _ = write!(head, "element vertex {vertices}\nproperty double x\nproperty double y\n");
+    let _ = write!(
+        head,
+        "element vertex {vertices}\nproperty double x\nproperty double y\n"
+    );
     let _ = write!(head, "property double z\nelement face {faces}\n");
     head.push_str("property list uchar int vertex_indices\nend_header\n");
     let mut out = head.into_bytes();
@@ -185,7 +205,8 @@ pub(crate) fn read(path: &Path) -> Result<Mesh> {
 
 /// Writes a file with double coordinates.
 pub(crate) fn write(path: &Path, mesh: &Mesh) -> Result<()> {
-    fs::write(path, bytes_of(mesh)).map_err(|e| format!("cannot write {}: {e}", path.display()).into())
+    fs::write(path, bytes_of(mesh))
+        .map_err(|e| format!("cannot write {}: {e}", path.display()).into())
 }
 
 #[cfg(test)]
@@ -194,7 +215,11 @@ mod tests {
 
     fn triangle() -> Mesh {
         Mesh {
-            points: vec![[0.0, 0.1, -3.5], [1e300, 0.0, 0.0], [0.0, 1.0, f64::MIN_POSITIVE]],
+            points: vec![
+                [0.0, 0.1, -3.5],
+                [1e300, 0.0, 0.0],
+                [0.0, 1.0, f64::MIN_POSITIVE],
+            ],
             triangles: vec![[0, 1, 2], [2, 1, 0]],
         }
     }

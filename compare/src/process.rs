@@ -1,7 +1,7 @@
 //! Runs one program to its end, watching its time and its peak memory.
 
 use std::fs::{self, File};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -27,6 +27,14 @@ fn peak_kilobytes(pid: u32) -> Option<u64> {
     line.split_whitespace().nth(1)?.parse().ok()
 }
 
+/// `LOG.extension`, whatever dots the name has.
+pub(crate) fn beside(log: &Path, extension: &str) -> PathBuf {
+    let mut name = log.as_os_str().to_owned();
+    name.push(".");
+    name.push(extension);
+    name.into()
+}
+
 /// Runs a program with its output in `LOG.out` and its messages in `LOG.err`, and stops it after
 /// `limit`.
 pub(crate) fn run(command: &[String], log: &Path, limit: Duration) -> Result<Outcome> {
@@ -36,21 +44,29 @@ pub(crate) fn run(command: &[String], log: &Path, limit: Duration) -> Result<Out
     let mut child = Command::new(program)
         .args(args)
         .stdin(Stdio::null())
-        .stdout(File::create(log.with_added_extension("out"))?)
-        .stderr(File::create(log.with_added_extension("err"))?)
+        .stdout(File::create(beside(log, "out"))?)
+        .stderr(File::create(beside(log, "err"))?)
         .spawn()
         .map_err(|e| format!("cannot start {program}: {e}"))?;
     let start = Instant::now();
     let mut peak = None;
     loop {
         if let Some(status) = child.try_wait()? {
-            return Ok(Outcome { code: status.code(), timed_out: false, peak_kilobytes: peak });
+            return Ok(Outcome {
+                code: status.code(),
+                timed_out: false,
+                peak_kilobytes: peak,
+            });
         }
         peak = peak.max(peak_kilobytes(child.id()));
         if start.elapsed() > limit {
             child.kill()?;
             child.wait()?;
-            return Ok(Outcome { code: None, timed_out: true, peak_kilobytes: peak });
+            return Ok(Outcome {
+                code: None,
+                timed_out: true,
+                peak_kilobytes: peak,
+            });
         }
         thread::sleep(POLL);
     }
@@ -61,11 +77,12 @@ mod tests {
     use super::*;
 
     fn shell(script: &str, name: &str, limit: Duration) -> Outcome {
-        let log = std::env::temp_dir().join(format!("holefill-compare-{}-{name}", std::process::id()));
+        let log =
+            std::env::temp_dir().join(format!("holefill-compare-{}-{name}", std::process::id()));
         let command = ["sh", "-c", script].map(str::to_owned);
         let outcome = run(&command, &log, limit).unwrap();
         for extension in ["out", "err"] {
-            fs::remove_file(log.with_added_extension(extension)).unwrap();
+            fs::remove_file(beside(&log, extension)).unwrap();
         }
         outcome
     }
@@ -87,7 +104,8 @@ mod tests {
     #[test]
     fn a_missing_program_is_an_error() {
         let command = ["/nowhere/holefill".to_owned()];
-        let log = std::env::temp_dir().join(format!("holefill-compare-{}-none", std::process::id()));
+        let log =
+            std::env::temp_dir().join(format!("holefill-compare-{}-none", std::process::id()));
         assert!(run(&command, &log, Duration::from_secs(1)).is_err());
     }
 }

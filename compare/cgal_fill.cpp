@@ -13,7 +13,7 @@
 //
 // Times: "cpu" is the processor time of this process around the calls named, "wall" the clock.
 // Exit status: 0 all holes filled, 3 some failed (the output is still written), 2 bad usage,
-// 1 cannot read or write, 4 the limit of seconds (by the clock) was reached.
+// 1 cannot read or write, 4 the limit of processor seconds was reached.
 // A build that CGAL refuses in part (non-manifold input) is reported as "build.ok": false; the
 // holes of the faces that it did take are still filled.
 
@@ -498,12 +498,16 @@ void write_text(const std::string& path, const std::string& text) {
     if (!file) throw std::runtime_error("cannot write " + path);
 }
 
-// The limit stops the whole process, since CGAL's fairing offers no place to stop at. What the
-// handler writes is prepared before the fill starts. It goes by the clock: while a timer of
-// processor time runs, Linux counts that time in whole ticks, too coarse for a small fill.
+// The limit stops the whole process, since CGAL's fairing offers no place to stop at. A timer of
+// the clock looks at the processor time now and then: while a timer of processor time itself runs,
+// Linux counts that time in whole ticks, too coarse for a small fill. What the handler writes is
+// prepared before the fill starts.
+constexpr suseconds_t LIMIT_CHECK_MICROSECONDS = 200'000;
 std::string limit_json, limit_path;
+double limit_seconds = 0.0, limit_start = 0.0;
 
 extern "C" void on_limit(int) {
+    if (seconds_of(CLOCK_PROCESS_CPUTIME_ID) - limit_start < limit_seconds) return;
     const int file = open(limit_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     if (file >= 0) {
         const ssize_t written = write(file, limit_json.data(), limit_json.size());
@@ -513,22 +517,24 @@ extern "C" void on_limit(int) {
     _exit(4);
 }
 
+void set_timer(suseconds_t microseconds) {
+    itimerval timer{};
+    timer.it_value.tv_usec = microseconds;
+    timer.it_interval.tv_usec = microseconds;
+    setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
 void start_limit(const Options& options, const Report& report) {
     if (options.limit_seconds <= 0.0) return;
     limit_json = report.text("limit");
     limit_path = options.json.empty() ? "/dev/null" : options.json;
+    limit_seconds = options.limit_seconds;
+    limit_start = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
     std::signal(SIGALRM, on_limit);
-    itimerval timer{};
-    timer.it_value.tv_sec = static_cast<time_t>(options.limit_seconds);
-    timer.it_value.tv_usec = static_cast<suseconds_t>(
-        1e6 * (options.limit_seconds - std::floor(options.limit_seconds)));
-    setitimer(ITIMER_REAL, &timer, nullptr);
+    set_timer(LIMIT_CHECK_MICROSECONDS);
 }
 
-void stop_limit() {
-    const itimerval off{};
-    setitimer(ITIMER_REAL, &off, nullptr);
-}
+void stop_limit() { set_timer(0); }
 
 // ------------------------------------------------------------------------------------- main
 

@@ -30,7 +30,7 @@ struct Cli {
 enum Command {
     /// Make the large inputs, one folder each: `DIR/NAME/input.ply` and `meta.json`.
     Inputs {
-        /// Where to write; about 350 MB.
+        /// Where to write; about 150 MB.
         dir: PathBuf,
     },
     /// Measure both programs, print the table and check every target.
@@ -66,7 +66,7 @@ struct RunArgs {
     /// Runs of each program whose median counts; a fill above one second runs once.
     #[arg(long, default_value_t = 5)]
     repeats: usize,
-    /// Seconds after which a program is stopped.
+    /// Seconds of filling after which a program is stopped.
     #[arg(long, default_value_t = 200.0)]
     limit_seconds: f64,
 }

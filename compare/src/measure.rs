@@ -263,7 +263,11 @@ impl Settings {
                 _ => {}
             }
         }
-        let factor = if program == Program::Cgal { CGAL_CLOCK_FACTOR } else { 1.0 };
+        let factor = if program == Program::Cgal {
+            CGAL_CLOCK_FACTOR
+        } else {
+            1.0
+        };
         let limit = Duration::from_secs_f64(factor * self.limit_seconds) + OVERHEAD;
         let outcome = process::run(&self.command(job, task, program), &file, limit)?;
         let mut run = Run {

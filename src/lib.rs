@@ -5,5 +5,6 @@
 mod error;
 mod math;
 mod patch;
+mod refine;
 
 pub use error::{Error, ErrorKind, Result};

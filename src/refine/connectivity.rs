@@ -41,7 +41,7 @@ pub(super) fn next(h: Halfedge) -> Halfedge {
 
 /// The half-edge before `h` in its triangle.
 pub(super) fn prev(h: Halfedge) -> Halfedge {
-    if h % 3 == 0 { h + 2 } else { h - 1 }
+    if h.is_multiple_of(3) { h + 2 } else { h - 1 }
 }
 
 fn topology(message: String) -> Error {
@@ -408,78 +408,6 @@ impl Iterator for Corners<'_> {
             None => self.fans.next().copied(),
         };
         Some(h)
-    }
-}
-
-#[cfg(test)]
-impl Connectivity {
-    /// Checks every structural promise the slow way.
-    pub(super) fn validate(&self) {
-        let count = self.halfedge_count();
-        let mut edges = Vec::new();
-        for h in 0..count {
-            let o = self.opposite[h as usize];
-            if o & RIM == 0 {
-                assert_eq!(
-                    self.opposite[o as usize], h,
-                    "opposite of {h} does not point back"
-                );
-                assert_eq!(
-                    (self.origin(h), self.target(h)),
-                    (self.target(o), self.origin(o))
-                );
-            } else {
-                assert_eq!(
-                    self.rim_edges[(o ^ RIM) as usize],
-                    h,
-                    "rim edge of {h} is lost"
-                );
-            }
-            edges.push((self.origin(h), self.target(h)));
-        }
-        edges.sort_unstable();
-        assert!(
-            edges.windows(2).all(|e| e[0] != e[1]),
-            "a directed edge occurs twice"
-        );
-        let mut corners = vec![0; self.start.len()];
-        for t in &self.triangles {
-            assert!(
-                t[0] != t[1] && t[1] != t[2] && t[2] != t[0],
-                "triangle {t:?} is degenerate"
-            );
-            t.iter().for_each(|&v| corners[v as usize] += 1);
-        }
-        for v in 0..self.start.len() as u32 {
-            let walked: Vec<_> = self.corners(v).collect();
-            assert_eq!(
-                walked.len(),
-                corners[v as usize],
-                "one-ring of {v} is incomplete"
-            );
-            assert!(
-                walked.iter().all(|&h| self.origin(h) == v),
-                "one-ring of {v} strays"
-            );
-        }
-    }
-
-    /// Rim edges as directed vertex pairs, sorted.
-    pub(super) fn rim_pairs(&self) -> Vec<(u32, u32)> {
-        let mut pairs: Vec<_> = self
-            .rim_edges
-            .iter()
-            .map(|&h| (self.origin(h), self.target(h)))
-            .collect();
-        pairs.sort_unstable();
-        pairs
-    }
-
-    /// Vertices in use minus edges plus triangles.
-    pub(super) fn euler(&self) -> i64 {
-        let used = (0..self.start.len() as u32).filter(|&v| self.corners(v).next().is_some());
-        let edges = (self.opposite.len() + self.rim_edges.len()) / 2;
-        used.count() as i64 - edges as i64 + self.triangles.len() as i64
     }
 }
 

@@ -1,5 +1,9 @@
 //! Rims and first triangulations that the tests of this module share.
 
+use super::connectivity::Connectivity;
+use super::density::{grading, rim_sizes};
+use super::flip::Blocked;
+use super::isotropic::{RefineOptions, RefineReport, refine};
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
 use std::f64::consts::TAU;
@@ -66,4 +70,52 @@ pub(super) fn strip_patch(rails: &[(Vec3, Vec3)]) -> PatchSurface {
         points,
         triangles,
     }
+}
+
+/// The connectivity of a patch.
+pub(super) fn connect(surface: &PatchSurface) -> Connectivity {
+    let triangles = surface.triangles.clone();
+    Connectivity::build(triangles, surface.points.len(), surface.rim_count).unwrap()
+}
+
+/// Refines at the rim's density and checks all that holds for any input.
+pub(super) fn refined_with(
+    surface: &PatchSurface,
+    options: &RefineOptions,
+    blocked: &Blocked<'_>,
+) -> (PatchSurface, Vec<f64>, RefineReport) {
+    let mut sizes = rim_sizes(surface, &[]).unwrap();
+    let mut out = surface.clone();
+    let report = refine(&mut out, &mut sizes, options, blocked).unwrap();
+    check_invariants(surface, &out, &sizes);
+    assert_eq!(out.points.len(), surface.points.len() + report.splits);
+    (out, sizes, report)
+}
+
+/// Refines at the rim's density with the grading of its size.
+pub(super) fn refined(surface: &PatchSurface) -> (PatchSurface, Vec<f64>) {
+    let options = RefineOptions {
+        grading: grading(surface.rim_count),
+        ..RefineOptions::default()
+    };
+    let (out, sizes, _) = refined_with(surface, &options, &|_, _| false);
+    (out, sizes)
+}
+
+/// Panics unless `after` has the rim, topology and orientation of `before` and finite values.
+pub(super) fn check_invariants(before: &PatchSurface, after: &PatchSurface, sizes: &[f64]) {
+    let (old, new) = (connect(before), connect(after));
+    new.validate();
+    assert_eq!(new.rim_pairs(), old.rim_pairs(), "rim edges");
+    assert_eq!(new.euler(), old.euler(), "Euler characteristic");
+    let bits = |s: &PatchSurface| -> Vec<[u64; 3]> {
+        s.points[..s.rim_count]
+            .iter()
+            .map(|p| [p.x, p.y, p.z].map(f64::to_bits))
+            .collect()
+    };
+    assert_eq!(bits(before), bits(after), "rim points");
+    assert!(after.points.iter().flatten().all(|x| x.is_finite()));
+    assert_eq!(sizes.len(), after.points.len());
+    assert!(sizes.iter().all(|s| s.is_finite() && *s > 0.0));
 }

@@ -91,7 +91,8 @@ impl<'a> Flipper<'a> {
     fn may_flip(&self, mesh: &Connectivity, h: Halfedge, g: Halfedge) -> bool {
         let (c, d) = (mesh.apex(h), mesh.apex(g));
         let on_rim = c.max(d) < mesh.rim_count() as u32;
-        !mesh.has_edge(c, d) && !(on_rim && (self.blocked)(c, d))
+        let taken = mesh.has_edge(c, d) || (on_rim && (self.blocked)(c, d));
+        !taken
     }
 }
 

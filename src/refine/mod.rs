@@ -12,6 +12,10 @@ mod flip;
 mod isotropic;
 mod locality;
 mod relax;
+#[cfg(test)]
+mod robustness;
+#[cfg(test)]
+mod validate;
 
 #[allow(unused_imports)] // until the pipeline uses them
 pub(crate) use density::{grading, rim_sizes};

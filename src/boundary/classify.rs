@@ -66,8 +66,9 @@ pub(super) fn classify(mesh: &TriMesh, loops: &mut [BoundaryLoop]) {
             l.class = LoopClass::OuterRim;
         }
     }
-    let hosts: Vec<Option<usize>> =
-        (0..loops.len()).map(|i| host_of_island(mesh, loops, i)).collect();
+    let hosts: Vec<Option<usize>> = (0..loops.len())
+        .map(|i| host_of_island(mesh, loops, i))
+        .collect();
     for (l, host) in loops.iter_mut().zip(hosts) {
         if host.is_some() {
             l.class = LoopClass::Island;
@@ -81,8 +82,10 @@ fn is_closed(l: &BoundaryLoop) -> bool {
 }
 
 fn mark_touching(loops: &mut [BoundaryLoop]) {
-    let mut uses: Vec<(u32, usize)> =
-        loops.iter().flat_map(|l| l.vertices.iter().map(|&v| (v, l.id))).collect();
+    let mut uses: Vec<(u32, usize)> = loops
+        .iter()
+        .flat_map(|l| l.vertices.iter().map(|&v| (v, l.id)))
+        .collect();
     uses.sort_unstable();
     let shared: Vec<usize> = uses
         .windows(2)
@@ -106,18 +109,18 @@ fn outer_rim_alignment(mesh: &TriMesh, l: &BoundaryLoop) -> f64 {
     }
     let area = Vec3::from(l.vector_area);
     let scale = normal.norm() * area.norm();
-    if scale > 0.0 { normal.dot(&area) / scale } else { 0.0 }
+    if scale > 0.0 {
+        normal.dot(&area) / scale
+    } else {
+        0.0
+    }
 }
 
 /// The loop whose hole the island `candidate` lies in.
 ///
 /// The candidate must bound a small sheet with no other boundary, and lie inside the bounding box of
 /// exactly such a hole; among several the one with the shortest perimeter is meant.
-fn host_of_island(
-    mesh: &TriMesh,
-    loops: &[BoundaryLoop],
-    candidate: usize,
-) -> Option<usize> {
+fn host_of_island(mesh: &TriMesh, loops: &[BoundaryLoop], candidate: usize) -> Option<usize> {
     let island = &loops[candidate];
     if !is_closed(island) || outer_rim_alignment(mesh, island) <= 0.0 {
         return None;

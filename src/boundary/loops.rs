@@ -94,12 +94,17 @@ impl BoundaryLoops {
         }
         for chain in chains.iter_mut().filter(|c| c.is_closed) {
             let count = chain.edges.len();
-            let lowest = (0..count).min_by_key(|&i| chain.edges[i].halfedge).unwrap_or(0);
+            let lowest = (0..count)
+                .min_by_key(|&i| chain.edges[i].halfedge)
+                .unwrap_or(0);
             chain.edges.rotate_left(lowest);
         }
         chains.sort_by_key(|c| c.edges.iter().map(|e| e.halfedge).min());
-        let mut loops: Vec<BoundaryLoop> =
-            chains.iter().enumerate().map(|(id, chain)| measure(mesh, id, chain)).collect();
+        let mut loops: Vec<BoundaryLoop> = chains
+            .iter()
+            .enumerate()
+            .map(|(id, chain)| measure(mesh, id, chain))
+            .collect();
         classify(mesh, &mut loops);
         Self { loops }
     }
@@ -131,13 +136,20 @@ struct Chain {
 
 fn other_end(mesh: &TriMesh, halfedge: u32, vertex: u32) -> u32 {
     let start = origin(mesh.triangles(), halfedge);
-    if start == vertex { target(mesh.triangles(), halfedge) } else { start }
+    if start == vertex {
+        target(mesh.triangles(), halfedge)
+    } else {
+        start
+    }
 }
 
 /// Follows the boundary from the halfedge `start` forwards, and backwards too if it is not closed.
 fn follow(mesh: &TriMesh, start: u32) -> Chain {
     let from = origin(mesh.triangles(), start);
-    let mut edges = vec![ChainEdge { halfedge: start, from }];
+    let mut edges = vec![ChainEdge {
+        halfedge: start,
+        from,
+    }];
     let leave = |halfedge: u32, vertex: u32, edges: &mut Vec<ChainEdge>| {
         let (mut halfedge, mut vertex) = (halfedge, vertex);
         loop {
@@ -146,7 +158,10 @@ fn follow(mesh: &TriMesh, start: u32) -> Chain {
                     if h == start {
                         return true;
                     }
-                    edges.push(ChainEdge { halfedge: h, from: vertex });
+                    edges.push(ChainEdge {
+                        halfedge: h,
+                        from: vertex,
+                    });
                     (halfedge, vertex) = (h, other_end(mesh, h, vertex));
                 }
                 _ => return false,
@@ -183,12 +198,18 @@ fn split_at_repeated_vertices(chain: Chain, simple: &mut Vec<Chain>) {
             for e in &cut {
                 place_of.remove(&e.from);
             }
-            simple.push(Chain { edges: cut, is_closed: true });
+            simple.push(Chain {
+                edges: cut,
+                is_closed: true,
+            });
         }
         place_of.insert(edge.from, path.len());
         path.push(edge);
     }
-    simple.push(Chain { edges: path, is_closed: true });
+    simple.push(Chain {
+        edges: path,
+        is_closed: true,
+    });
 }
 
 fn measure(mesh: &TriMesh, id: usize, chain: &Chain) -> BoundaryLoop {
@@ -207,7 +228,10 @@ fn measure(mesh: &TriMesh, id: usize, chain: &Chain) -> BoundaryLoop {
     }
     let spread = fit_plane(&points).map_or([0.0; 3], |plane| plane.spread);
     let total = spread.iter().map(|s| s * s).sum::<f64>().sqrt();
-    let is_oriented = chain.edges.iter().all(|e| origin(mesh.triangles(), e.halfedge) == e.from);
+    let is_oriented = chain
+        .edges
+        .iter()
+        .all(|e| origin(mesh.triangles(), e.halfedge) == e.from);
     BoundaryLoop {
         id,
         perimeter,

@@ -28,7 +28,7 @@ impl Selection {
     /// [`ErrorKind::InvalidInput`] when an edge of `only` or `keep` is on no loop, or `max_perimeter` is
     /// negative or not a number.
     pub fn reasons_to_keep(&self, boundary: &BoundaryLoops) -> Result<Vec<Option<String>>> {
-        if let Some(limit) = self.max_perimeter.filter(|p| !(*p >= 0.0)) {
+        if let Some(limit) = self.max_perimeter.filter(|p| p.is_nan() || *p < 0.0) {
             return Err(Error::new(
                 ErrorKind::InvalidInput,
                 format!("the largest perimeter must be a number that is not negative, not {limit}"),
@@ -38,8 +38,11 @@ impl Selection {
         let keep = loops_of_edges(boundary, &self.keep)?;
         let mut by_perimeter: Vec<&BoundaryLoop> = boundary.loops.iter().collect();
         by_perimeter.sort_by(|a, b| b.perimeter.total_cmp(&a.perimeter).then(a.id.cmp(&b.id)));
-        let mut largest: Vec<usize> =
-            by_perimeter.iter().take(self.keep_largest).map(|l| l.id).collect();
+        let mut largest: Vec<usize> = by_perimeter
+            .iter()
+            .take(self.keep_largest)
+            .map(|l| l.id)
+            .collect();
         largest.sort_unstable();
         let reason = |l: &BoundaryLoop| {
             if keep.binary_search(&l.id).is_ok() {

@@ -92,7 +92,11 @@ impl<'a> Operator<'a> {
         let is_summed = (0..domain.vertex_count())
             .map(|v| domain.levels[v] <= last_level && domain.is_complete[v])
             .collect();
-        Self { domain, order, is_summed }
+        Self {
+            domain,
+            order,
+            is_summed,
+        }
     }
 
     /// `out += factor * L[:, vertex]` restricted to the summed rows.
@@ -155,7 +159,10 @@ impl<'a> Operator<'a> {
             fixed[v] -= diagonal * p;
         }
         let mut scratch = Scratch::new(domain.vertex_count());
-        let mut matrix = SymmetricMatrix { column_starts: vec![0], ..SymmetricMatrix::default() };
+        let mut matrix = SymmetricMatrix {
+            column_starts: vec![0],
+            ..SymmetricMatrix::default()
+        };
         let mut right_side = Vec::with_capacity(domain.patch_count - domain.rim_count);
         let mut column: Vec<(u32, f64)> = Vec::new();
         for v in domain.rim_count..domain.patch_count {
@@ -169,7 +176,13 @@ impl<'a> Operator<'a> {
             }
             right_side.push(sum);
             column.clear();
-            column.extend(scratch.c.support.iter().map(|&i| (i, scratch.c.values[i as usize])));
+            column.extend(
+                scratch
+                    .c
+                    .support
+                    .iter()
+                    .map(|&i| (i, scratch.c.values[i as usize])),
+            );
             column.sort_unstable_by_key(|&(i, _)| i);
             for &(i, value) in &column {
                 matrix.rows.push(i - domain.rim_count as u32);
@@ -203,7 +216,10 @@ impl<'a> Operator<'a> {
 
 /// Matrix and right-hand side of the membrane over the interior vertices.
 fn membrane_equations(domain: &Domain, rim_values: &[Vec3]) -> (SymmetricMatrix, Vec<Vec3>) {
-    let mut matrix = SymmetricMatrix { column_starts: vec![0], ..SymmetricMatrix::default() };
+    let mut matrix = SymmetricMatrix {
+        column_starts: vec![0],
+        ..SymmetricMatrix::default()
+    };
     let mut right_side = Vec::with_capacity(domain.patch_count - domain.rim_count);
     for v in domain.rim_count..domain.patch_count {
         let diagonal_at = matrix.values.len();
@@ -235,7 +251,11 @@ struct Scratch {
 
 impl Scratch {
     fn new(size: usize) -> Self {
-        Self { a: SparseVector::new(size), b: SparseVector::new(size), c: SparseVector::new(size) }
+        Self {
+            a: SparseVector::new(size),
+            b: SparseVector::new(size),
+            c: SparseVector::new(size),
+        }
     }
 }
 
@@ -248,7 +268,11 @@ struct SparseVector {
 
 impl SparseVector {
     fn new(size: usize) -> Self {
-        Self { values: vec![0.0; size], is_listed: vec![false; size], support: Vec::new() }
+        Self {
+            values: vec![0.0; size],
+            is_listed: vec![false; size],
+            support: Vec::new(),
+        }
     }
 
     fn add(&mut self, index: u32, value: f64) {

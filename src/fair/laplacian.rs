@@ -73,12 +73,25 @@ impl Domain {
         let shift = (patch_count - surface.rim_count) as u32;
         let rim_count = surface.rim_count;
         let level_of = |v: u32| {
-            if (v as usize) < rim_count { 0 } else { surroundings.levels[v as usize - rim_count] }
+            if (v as usize) < rim_count {
+                0
+            } else {
+                surroundings.levels[v as usize - rim_count]
+            }
         };
         let ring_of = |t: &[u32; 3]| t.iter().map(|&v| level_of(v)).min().unwrap_or(0);
-        let global = |v: u32| if (v as usize) < rim_count { v } else { v + shift };
+        let global = |v: u32| {
+            if (v as usize) < rim_count {
+                v
+            } else {
+                v + shift
+            }
+        };
         let mut triangles = surface.triangles.clone();
-        let near = surroundings.triangles.iter().filter(|t| ring_of(t) < ring_count);
+        let near = surroundings
+            .triangles
+            .iter()
+            .filter(|t| ring_of(t) < ring_count);
         triangles.extend(near.map(|t| t.map(global)));
         let mut points = surface.points.clone();
         points.extend_from_slice(&surroundings.points);
@@ -121,7 +134,10 @@ impl Domain {
             starts[v + 1] += starts[v];
         }
         let mut slots = starts.clone();
-        let zero = Entry { column: 0, weight: 0.0 };
+        let zero = Entry {
+            column: 0,
+            weight: 0.0,
+        };
         let mut half_edges = vec![zero; 6 * self.triangles.len()];
         for t in &self.triangles {
             let (cotangents, area) = match weights {
@@ -132,7 +148,10 @@ impl Domain {
                 let (a, b) = (t[(k + 1) % 3], t[(k + 2) % 3]);
                 for (row, column) in [(a, b), (b, a)] {
                     let slot = &mut slots[row as usize];
-                    half_edges[*slot as usize] = Entry { column, weight: cotangents[k] / 2.0 };
+                    half_edges[*slot as usize] = Entry {
+                        column,
+                        weight: cotangents[k] / 2.0,
+                    };
                     *slot += 1;
                 }
                 self.areas[t[k] as usize] += area / 3.0;
@@ -148,7 +167,10 @@ impl Domain {
                     Weights::Uniform => 1.0,
                     Weights::Cotangent => same.iter().map(|e| e.weight).sum(),
                 };
-                self.entries.push(Entry { column: same[0].column, weight });
+                self.entries.push(Entry {
+                    column: same[0].column,
+                    weight,
+                });
             }
             self.row_starts.push(self.entries.len() as u32);
         }
@@ -178,5 +200,8 @@ fn cotangents_and_area(corners: [&Vec3; 3]) -> ([f64; 3], f64) {
             LARGEST_COTANGENT.copysign(along)
         }
     };
-    ([cotangent(0), cotangent(1), cotangent(2)], double_area / 2.0)
+    (
+        [cotangent(0), cotangent(1), cotangent(2)],
+        double_area / 2.0,
+    )
 }

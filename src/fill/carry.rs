@@ -34,7 +34,11 @@ impl CarriedAttributes {
     ///
     /// # Errors
     /// [`crate::ErrorKind::InvalidInput`] when a source is not an element.
-    pub(crate) fn append_to(&self, vertices: &mut Attributes, faces: &mut Attributes) -> Result<()> {
+    pub(crate) fn append_to(
+        &self,
+        vertices: &mut Attributes,
+        faces: &mut Attributes,
+    ) -> Result<()> {
         let computed: Vec<(String, &[f64])> = self
             .vertex_values
             .iter()
@@ -74,12 +78,18 @@ pub(crate) fn carry(
     }
     let normals: Vec<Option<usize>> = NORMALS
         .iter()
-        .map(|name| vertex_columns.iter().position(|c| c.name == *name && is_float(c)))
+        .map(|name| {
+            vertex_columns
+                .iter()
+                .position(|c| c.name == *name && is_float(c))
+        })
         .collect();
     if let [Some(x), Some(y), Some(z)] = normals[..] {
         let values = vertex_normals(surface);
         for (k, column) in [x, y, z].into_iter().enumerate() {
-            carried.vertex_values.push((column, values.iter().map(|n| n[k]).collect()));
+            carried
+                .vertex_values
+                .push((column, values.iter().map(|n| n[k]).collect()));
         }
     }
     let smooth: Vec<usize> = (0..vertex_columns.len())
@@ -102,14 +112,17 @@ pub(crate) fn carry(
         }
         let values = extend_from_rim(surface, &rim_values, &mut solver)?;
         for (k, &c) in columns.iter().enumerate() {
-            carried.vertex_values.push((c, values.iter().map(|v| v[k]).collect()));
+            carried
+                .vertex_values
+                .push((c, values.iter().map(|v| v[k]).collect()));
         }
     }
     Ok(carried)
 }
 
 fn is_float(column: &Attribute) -> bool {
-    matches!(column.values, AttributeValues::Scalars(_)) && !column.values.scalar_type().is_integer()
+    matches!(column.values, AttributeValues::Scalars(_))
+        && !column.values.scalar_type().is_integer()
 }
 
 fn varies_smoothly(column: &Attribute) -> bool {
@@ -151,7 +164,10 @@ fn nearest_rim_vertices(hole: &Hole, surface: &PatchSurface) -> Vec<u32> {
             }
         }
     }
-    source[surface.rim_count..].iter().map(|s| s.unwrap_or(hole.rim[0])).collect()
+    source[surface.rim_count..]
+        .iter()
+        .map(|s| s.unwrap_or(hole.rim[0]))
+        .collect()
 }
 
 /// For each triangle the triangle along the rim that is reached over the fewest edges.
@@ -170,11 +186,11 @@ fn nearest_rim_faces(hole: &Hole, surface: &PatchSurface) -> Vec<u32> {
     let m = hole.polygon.len();
     for i in 0..m {
         let face = face_at(hole.polygon[i], hole.polygon[(i + 1) % m]);
-        if let (Some(face), Some(outside)) = (face, hole.outside_faces[i]) {
-            if source[face as usize].is_none() {
-                source[face as usize] = Some(outside);
-                queue.push(face);
-            }
+        if let (Some(face), Some(outside)) = (face, hole.outside_faces[i])
+            && source[face as usize].is_none()
+        {
+            source[face as usize] = Some(outside);
+            queue.push(face);
         }
     }
     let mut head = 0;
@@ -182,11 +198,11 @@ fn nearest_rim_faces(hole: &Hole, surface: &PatchSurface) -> Vec<u32> {
         head += 1;
         let t = surface.triangles[f as usize];
         for k in 0..3 {
-            if let Some(g) = face_at(t[(k + 1) % 3], t[k]) {
-                if source[g as usize].is_none() {
-                    source[g as usize] = source[f as usize];
-                    queue.push(g);
-                }
+            if let Some(g) = face_at(t[(k + 1) % 3], t[k])
+                && source[g as usize].is_none()
+            {
+                source[g as usize] = source[f as usize];
+                queue.push(g);
             }
         }
     }

@@ -62,8 +62,11 @@ impl Hole {
             let mut seen = std::collections::BTreeSet::new();
             rim.retain(|&v| seen.insert(v));
         }
-        let mut local_of: BTreeMap<u32, u32> =
-            rim.iter().enumerate().map(|(i, &v)| (v, i as u32)).collect();
+        let mut local_of: BTreeMap<u32, u32> = rim
+            .iter()
+            .enumerate()
+            .map(|(i, &v)| (v, i as u32))
+            .collect();
         let polygon_indices: Vec<u32> = polygon.vertices.iter().map(|v| local_of[v]).collect();
 
         let count = rim.len() as f64;
@@ -72,7 +75,10 @@ impl Hole {
         if !(scale > 0.0 && scale.is_finite()) {
             return Err(Error::new(
                 ErrorKind::Geometry,
-                format!("the {} vertices of the rim coincide at one point", rim.len()),
+                format!(
+                    "the {} vertices of the rim coincide at one point",
+                    rim.len()
+                ),
             ));
         }
         let to_local = |v: u32| (mesh.point(v) - center) / scale;
@@ -87,8 +93,11 @@ impl Hole {
             })
             .collect();
 
-        let rim_halfedges: Vec<u32> =
-            [outer].iter().chain(islands).flat_map(|l| l.halfedges.iter().copied()).collect();
+        let rim_halfedges: Vec<u32> = [outer]
+            .iter()
+            .chain(islands)
+            .flat_map(|l| l.halfedges.iter().copied())
+            .collect();
         let rings = collect_rings(mesh, &rim_halfedges, RINGS);
         let mut surroundings = Surroundings::default();
         for (&v, &level) in rings.levels.iter().filter(|&(_, &level)| level > 0) {
@@ -141,7 +150,10 @@ impl Polygon {
         let n = l.vertices.len();
         let vertices = (0..n).map(|i| l.vertices[(n - i) % n]).collect();
         let halfedges = (0..n).map(|i| Some(l.halfedges[n - 1 - i])).collect();
-        Self { vertices, halfedges }
+        Self {
+            vertices,
+            halfedges,
+        }
     }
 
     /// Joins `inner` along a bridge between the two vertices that are closest to each other; where the
@@ -151,7 +163,11 @@ impl Polygon {
         for (i, &v) in self.vertices.iter().enumerate() {
             let p = mesh.point(v);
             for (j, &w) in inner.vertices.iter().enumerate() {
-                let distance = if v == w { -1.0 } else { (mesh.point(w) - p).norm_squared() };
+                let distance = if v == w {
+                    -1.0
+                } else {
+                    (mesh.point(w) - p).norm_squared()
+                };
                 if distance < shortest {
                     (at, inner_at, shortest) = (i, j, distance);
                 }
@@ -183,7 +199,11 @@ impl Polygon {
 fn mean_edge_lengths(rim: &[Vec3], surroundings: &Surroundings) -> Vec<f64> {
     let point = |v: u32| {
         let v = v as usize;
-        if v < rim.len() { rim[v] } else { surroundings.points[v - rim.len()] }
+        if v < rim.len() {
+            rim[v]
+        } else {
+            surroundings.points[v - rim.len()]
+        }
     };
     let mut sums = vec![(0.0, 0.0); rim.len()];
     for t in &surroundings.triangles {
@@ -198,7 +218,9 @@ fn mean_edge_lengths(rim: &[Vec3], surroundings: &Surroundings) -> Vec<f64> {
             }
         }
     }
-    sums.iter().map(|&(sum, count)| if count > 0.0 { sum / count } else { 1.0 }).collect()
+    sums.iter()
+        .map(|&(sum, count)| if count > 0.0 { sum / count } else { 1.0 })
+        .collect()
 }
 
 fn joined_rim_vertices(

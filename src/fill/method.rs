@@ -23,8 +23,13 @@ pub enum Method {
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 5] =
-        [Self::Auto, Self::Flat, Self::Membrane, Self::FairC1, Self::FairC2];
+    pub const ALL: [Self; 5] = [
+        Self::Auto,
+        Self::Flat,
+        Self::Membrane,
+        Self::FairC1,
+        Self::FairC2,
+    ];
 
     /// The name used on the command line and in reports.
     #[must_use]
@@ -44,7 +49,9 @@ impl Method {
         match self {
             Self::Auto => "the library's choice (at present fair-c1)",
             Self::Flat => "minimum-weight triangulation of the rim, no new vertices",
-            Self::Membrane => "refine to the rim's density, then a membrane (meets the rim, may crease there)",
+            Self::Membrane => {
+                "refine to the rim's density, then a membrane (meets the rim, may crease there)"
+            }
             Self::FairC1 => "refine, then fair with a common tangent plane along the rim",
             Self::FairC2 => "refine, then fair with common curvature along the rim",
         }
@@ -61,12 +68,18 @@ impl FromStr for Method {
     type Err = Error;
 
     fn from_str(name: &str) -> Result<Self, Error> {
-        Self::ALL.into_iter().find(|m| m.name() == name).ok_or_else(|| {
-            let names: Vec<&str> = Self::ALL.iter().map(|m| m.name()).collect();
-            Error::new(
-                ErrorKind::InvalidInput,
-                format!("unknown method '{name}'; the methods are {}", names.join(", ")),
-            )
-        })
+        Self::ALL
+            .into_iter()
+            .find(|m| m.name() == name)
+            .ok_or_else(|| {
+                let names: Vec<&str> = Self::ALL.iter().map(|m| m.name()).collect();
+                Error::new(
+                    ErrorKind::InvalidInput,
+                    format!(
+                        "unknown method '{name}'; the methods are {}",
+                        names.join(", ")
+                    ),
+                )
+            })
     }
 }

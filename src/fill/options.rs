@@ -121,9 +121,16 @@ impl FillOptions {
             name: "refine.grading",
             help: "growth of the target edge length per unit of distance from the rim",
             allowed: "auto, or a number from 0 to 1",
-            get: |o| o.grading.map_or_else(|| "auto".to_owned(), |g| g.to_string()),
+            get: |o| {
+                o.grading
+                    .map_or_else(|| "auto".to_owned(), |g| g.to_string())
+            },
             set: |o, v| {
-                o.grading = if v == "auto" { None } else { Some(number(v, 0.0, 1.0)?) };
+                o.grading = if v == "auto" {
+                    None
+                } else {
+                    Some(number(v, 0.0, 1.0)?)
+                };
                 Some(())
             },
         },
@@ -146,7 +153,10 @@ impl FillOptions {
             let names: Vec<&str> = Self::PARAMETERS.iter().map(|p| p.name).collect();
             return Err(Error::new(
                 ErrorKind::InvalidInput,
-                format!("unknown parameter '{name}'; the parameters are {}", names.join(", ")),
+                format!(
+                    "unknown parameter '{name}'; the parameters are {}",
+                    names.join(", ")
+                ),
             ));
         };
         (parameter.set)(self, value).ok_or_else(|| {
@@ -174,7 +184,9 @@ mod tests {
 
     #[test]
     fn an_unknown_name_lists_the_known_ones() {
-        let error = FillOptions::default().set("refine.densty", "1").unwrap_err();
+        let error = FillOptions::default()
+            .set("refine.densty", "1")
+            .unwrap_err();
         assert_eq!(error.kind(), ErrorKind::InvalidInput);
         for parameter in FillOptions::PARAMETERS {
             assert!(error.message().contains(parameter.name), "{error}");

@@ -67,20 +67,33 @@ fn fill_on_this_pool(
     let kept = selection.reasons_to_keep(boundary)?;
     let holes = group_holes(boundary, &kept, options);
     let mut report = FillReport {
-        holes: boundary.loops.iter().zip(&kept).map(|(l, k)| blank_report(l, k)).collect(),
+        holes: boundary
+            .loops
+            .iter()
+            .zip(&kept)
+            .map(|(l, k)| blank_report(l, k))
+            .collect(),
         ..FillReport::default()
     };
     if holes.is_empty() {
         return Ok(report);
     }
     let start = Instant::now();
-    let faces = FaceIndex::build(Surface { points: mesh.points(), triangles: mesh.triangles() });
+    let faces = FaceIndex::build(Surface {
+        points: mesh.points(),
+        triangles: mesh.triangles(),
+    });
     report.index_seconds = start.elapsed().as_secs_f64();
 
     let start = Instant::now();
     let meter = Meter::new(holes.len(), progress);
     let interrupted = || meter.is_cancelled();
-    let planner = Planner { mesh, faces: &faces, options, interrupted: &interrupted };
+    let planner = Planner {
+        mesh,
+        faces: &faces,
+        options,
+        interrupted: &interrupted,
+    };
     let methods = chain(options);
     let planned: Vec<(std::result::Result<Plan, Failure>, f64)> = holes
         .par_iter()
@@ -89,7 +102,10 @@ fn fill_on_this_pool(
             let start = Instant::now();
             let outcome = if meter.is_cancelled() {
                 let error = Error::new(ErrorKind::Cancelled, "stopped by the caller");
-                Err(Failure { error, tried: Vec::new() })
+                Err(Failure {
+                    error,
+                    tried: Vec::new(),
+                })
             } else {
                 planner.plan(hole.outer, &hole.islands, &methods)
             };
@@ -123,9 +139,8 @@ fn group_holes<'a>(
     kept: &[Option<String>],
     options: &FillOptions,
 ) -> Vec<HoleLoops<'a>> {
-    let is_chosen = |id: usize| {
-        kept[id].is_none() && unfillable_reason(boundary.loops[id].class).is_none()
-    };
+    let is_chosen =
+        |id: usize| kept[id].is_none() && unfillable_reason(boundary.loops[id].class).is_none();
     let host_of = |l: &BoundaryLoop| {
         l.host.filter(|&host| {
             options.join_islands && is_chosen(host) && boundary.loops[host].host.is_none()
@@ -135,13 +150,16 @@ fn group_holes<'a>(
         .loops
         .iter()
         .filter(|l| is_chosen(l.id) && host_of(l).is_none())
-        .map(|outer| HoleLoops { outer, islands: Vec::new() })
+        .map(|outer| HoleLoops {
+            outer,
+            islands: Vec::new(),
+        })
         .collect();
     for island in boundary.loops.iter().filter(|l| is_chosen(l.id)) {
-        if let Some(host) = host_of(island) {
-            if let Ok(i) = holes.binary_search_by_key(&host, |h| h.outer.id) {
-                holes[i].islands.push(island);
-            }
+        if let Some(host) = host_of(island)
+            && let Ok(i) = holes.binary_search_by_key(&host, |h| h.outer.id)
+        {
+            holes[i].islands.push(island);
         }
     }
     holes
@@ -182,11 +200,17 @@ fn blank_report(l: &BoundaryLoop, kept: &Option<String>) -> HoleReport {
 
 fn check_boundary(mesh: &TriMesh, boundary: &BoundaryLoops) -> Result<()> {
     let connectivity = mesh.connectivity();
-    let is_open = |&h: &u32| {
-        (h as usize) < connectivity.halfedge_count() && connectivity.twin(h) == BOUNDARY
-    };
-    match boundary.loops.iter().find(|l| !l.halfedges.iter().all(is_open)) {
-        Some(l) => Err(invalid(format!("loop {} is not on the boundary of this mesh", l.id))),
+    let is_open =
+        |&h: &u32| (h as usize) < connectivity.halfedge_count() && connectivity.twin(h) == BOUNDARY;
+    match boundary
+        .loops
+        .iter()
+        .find(|l| !l.halfedges.iter().all(is_open))
+    {
+        Some(l) => Err(invalid(format!(
+            "loop {} is not on the boundary of this mesh",
+            l.id
+        ))),
         None => Ok(()),
     }
 }
@@ -204,8 +228,15 @@ struct Meter<'a> {
 
 impl<'a> Meter<'a> {
     fn new(holes_total: usize, callback: Option<ProgressCallback<'a>>) -> Self {
-        let progress = Mutex::new(Progress { holes_done: 0, holes_total });
-        Self { progress, callback, cancelled: AtomicBool::new(false) }
+        let progress = Mutex::new(Progress {
+            holes_done: 0,
+            holes_total,
+        });
+        Self {
+            progress,
+            callback,
+            cancelled: AtomicBool::new(false),
+        }
     }
 
     fn is_cancelled(&self) -> bool {
@@ -213,9 +244,14 @@ impl<'a> Meter<'a> {
     }
 
     fn advance(&self) {
-        let Some(callback) = self.callback else { return };
+        let Some(callback) = self.callback else {
+            return;
+        };
         // Held during the call, so that the caller sees one call at a time and counts that only grow.
-        let mut progress = self.progress.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        let mut progress = self
+            .progress
+            .lock()
+            .unwrap_or_else(|poisoned| poisoned.into_inner());
         progress.holes_done += 1;
         if callback(*progress) == ControlFlow::Break(()) {
             self.cancelled.store(true, Ordering::Relaxed);

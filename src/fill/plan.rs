@@ -47,14 +47,25 @@ pub(crate) struct Failure {
 
 /// The methods to try, best first: the chosen one, then the simpler ones.
 pub(crate) fn chain(options: &FillOptions) -> Vec<Method> {
-    let staircase = [Method::FairC2, Method::FairC1, Method::Membrane, Method::Flat];
+    let staircase = [
+        Method::FairC2,
+        Method::FairC1,
+        Method::Membrane,
+        Method::Flat,
+    ];
     let first = match options.method {
         Method::Auto => Method::FairC1,
         method => method,
     };
     let last = if options.fallback { staircase.len() } else { 0 };
-    let later = staircase.iter().position(|&m| m == first).map_or(0, |i| i + 1);
-    [first].into_iter().chain(staircase[later.min(last)..last].iter().copied()).collect()
+    let later = staircase
+        .iter()
+        .position(|&m| m == first)
+        .map_or(0, |i| i + 1);
+    [first]
+        .into_iter()
+        .chain(staircase[later.min(last)..last].iter().copied())
+        .collect()
 }
 
 /// What planning needs besides the hole.
@@ -88,7 +99,9 @@ impl Planner<'_> {
             let reason = match self.candidate(&hole, &mut staircase, method) {
                 Ok(candidate) => {
                     let found = candidate.intersections.total();
-                    let is_better = best.as_ref().is_none_or(|(b, _)| found < b.intersections.total());
+                    let is_better = best
+                        .as_ref()
+                        .is_none_or(|(b, _)| found < b.intersections.total());
                     if is_better {
                         best = Some((candidate, tried.len()));
                     }
@@ -127,13 +140,26 @@ impl Planner<'_> {
     ) -> Result<Candidate> {
         let surface = staircase.patch(method)?;
         check_patch(hole, &surface)?;
-        let points: Vec<Vec3> =
-            surface.points[surface.rim_count..].iter().map(|p| hole.to_mesh(p).into()).collect();
+        let points: Vec<Vec3> = surface.points[surface.rim_count..]
+            .iter()
+            .map(|p| hole.to_mesh(p).into())
+            .collect();
         let triangles = global_triangles(hole, &surface.triangles, self.mesh.positions().len());
-        let patch = AppendedPatch { points: &points, triangles: &triangles };
-        let mesh = Surface { points: self.mesh.points(), triangles: self.mesh.triangles() };
+        let patch = AppendedPatch {
+            points: &points,
+            triangles: &triangles,
+        };
+        let mesh = Surface {
+            points: self.mesh.points(),
+            triangles: self.mesh.triangles(),
+        };
         let intersections = count(mesh, self.faces, patch, Search::All);
-        Ok(Candidate { method, surface, points, intersections })
+        Ok(Candidate {
+            method,
+            surface,
+            points,
+            intersections,
+        })
     }
 
     fn finish(
@@ -142,7 +168,12 @@ impl Planner<'_> {
         candidate: Candidate,
         tried: Vec<Attempt>,
     ) -> std::result::Result<Plan, Failure> {
-        let Candidate { method, surface, points, intersections } = candidate;
+        let Candidate {
+            method,
+            surface,
+            points,
+            intersections,
+        } = candidate;
         let attributes = match carry(self.mesh, &hole, &surface) {
             Ok(attributes) => attributes,
             Err(error) => return Err(Failure { error, tried }),

@@ -37,7 +37,13 @@ impl<'a> Staircase<'a> {
         options: &'a FillOptions,
         interrupted: &'a dyn Fn() -> bool,
     ) -> Self {
-        Self { hole, options, interrupted, flat: None, refined: None }
+        Self {
+            hole,
+            options,
+            interrupted,
+            flat: None,
+            refined: None,
+        }
     }
 
     /// The patch of `method` in the hole's coordinates.
@@ -51,18 +57,39 @@ impl<'a> Staircase<'a> {
             Method::Auto | Method::FairC1 => Order::Two,
             Method::FairC2 => Order::Three,
         };
-        let Refined { mut surface, mut sizes } = self.refined()?;
+        let Refined {
+            mut surface,
+            mut sizes,
+        } = self.refined()?;
         let mut solver = SpdSolver::default();
         let around = &self.hole.surroundings;
-        fair(&mut surface, around, Order::One, Weights::Uniform, &mut solver)?;
+        fair(
+            &mut surface,
+            around,
+            Order::One,
+            Weights::Uniform,
+            &mut solver,
+        )?;
         self.refine(&mut surface, &mut sizes)?;
         if order == Order::One {
             fair(&mut surface, around, order, Weights::Cotangent, &mut solver)?;
             return Ok(surface);
         }
-        fair(&mut surface, around, Order::Two, Weights::Uniform, &mut solver)?;
+        fair(
+            &mut surface,
+            around,
+            Order::Two,
+            Weights::Uniform,
+            &mut solver,
+        )?;
         self.refine(&mut surface, &mut sizes)?;
-        fair(&mut surface, around, Order::Two, Weights::Cotangent, &mut solver)?;
+        fair(
+            &mut surface,
+            around,
+            Order::Two,
+            Weights::Cotangent,
+            &mut solver,
+        )?;
         if order == Order::Three {
             fair(&mut surface, around, order, Weights::Cotangent, &mut solver)?;
         }
@@ -86,7 +113,11 @@ impl<'a> Staircase<'a> {
 
     fn triangulate(&self) -> Result<PatchSurface> {
         let hole = self.hole;
-        let points: Vec<_> = hole.polygon.iter().map(|&v| hole.points[v as usize]).collect();
+        let points: Vec<_> = hole
+            .polygon
+            .iter()
+            .map(|&v| hole.points[v as usize])
+            .collect();
         let at = |position: usize| hole.polygon[position];
         let polygon = HolePolygon {
             points: &points,
@@ -100,8 +131,10 @@ impl<'a> Staircase<'a> {
             ..TriangulationOptions::default()
         };
         let triangulation = triangulate(&polygon, &options)?;
-        let triangles =
-            triangulation.triangles.iter().map(|t| t.map(|position| at(position as usize)));
+        let triangles = triangulation
+            .triangles
+            .iter()
+            .map(|t| t.map(|position| at(position as usize)));
         Ok(PatchSurface {
             rim_count: hole.rim.len(),
             points: hole.points.clone(),
@@ -127,8 +160,13 @@ impl<'a> Staircase<'a> {
     fn refine(&self, surface: &mut PatchSurface, sizes: &mut Vec<f64>) -> Result<()> {
         self.check_interruption()?;
         let options = RefineOptions {
-            grading: self.options.grading.unwrap_or_else(|| grading(surface.rim_count)),
-            max_vertices: surface.rim_count.saturating_add(self.options.max_new_vertices),
+            grading: self
+                .options
+                .grading
+                .unwrap_or_else(|| grading(surface.rim_count)),
+            max_vertices: surface
+                .rim_count
+                .saturating_add(self.options.max_new_vertices),
             ..RefineOptions::default()
         };
         refine(surface, sizes, &options, &|a, b| self.hole.is_joined(a, b))?;

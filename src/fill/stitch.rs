@@ -54,7 +54,14 @@ impl<'a> Stitcher<'a> {
             plans[i].map_or_else(Aabb::empty, |plan| plan_box(mesh, plan))
         });
         let stitched = vec![0..0; plans.len()];
-        Self { mesh, faces, options, interrupted, boxes, stitched }
+        Self {
+            mesh,
+            faces,
+            options,
+            interrupted,
+            boxes,
+            stitched,
+        }
     }
 
     /// Appends the patch of hole `index`, or makes another one if it no longer fits.
@@ -80,8 +87,10 @@ impl<'a> Stitcher<'a> {
         if let Some(error) = conflict {
             let is_usable = with_patches > 0;
             match self.replan(hole, &plan, &error) {
-                Ok((other, count)) if !is_usable || count + other.self_intersections
-                    < with_patches + plan.self_intersections =>
+                Ok((other, count))
+                    if !is_usable
+                        || count + other.self_intersections
+                            < with_patches + plan.self_intersections =>
                 {
                     with_patches = count;
                     plan = other;
@@ -124,16 +133,25 @@ impl<'a> Stitcher<'a> {
             .skip(usize::from(!is_blocked))
             .collect();
         let mut tried = plan.tried.clone();
-        tried.push(Attempt { method: plan.method, reason: error.to_string() });
+        tried.push(Attempt {
+            method: plan.method,
+            reason: error.to_string(),
+        });
         let outcome = planner.plan(hole.outer, &hole.islands, &methods);
         let mut other = outcome.map_err(|mut failure| {
             tried.append(&mut failure.tried);
-            Failure { error: failure.error, tried: std::mem::take(&mut tried) }
+            Failure {
+                error: failure.error,
+                tried: std::mem::take(&mut tried),
+            }
         })?;
         tried.append(&mut other.tried);
         other.tried = tried;
         match self.conflict(&other) {
-            Some(error) => Err(Failure { error, tried: other.tried }),
+            Some(error) => Err(Failure {
+                error,
+                tried: other.tried,
+            }),
             None => {
                 let count = self.intersections_with_patches(&other);
                 Ok((other, count))
@@ -144,9 +162,13 @@ impl<'a> Stitcher<'a> {
     /// Pairs of triangles of the patch and of the patches stitched so far that intersect.
     fn intersections_with_patches(&self, plan: &Plan) -> usize {
         let mut near = Vec::new();
-        self.boxes.overlapping(&plan_box(self.mesh, plan), &mut near);
+        self.boxes
+            .overlapping(&plan_box(self.mesh, plan), &mut near);
         let triangles = plan.triangles(self.mesh.positions().len());
-        let patch = AppendedPatch { points: &plan.points, triangles: &triangles };
+        let patch = AppendedPatch {
+            points: &plan.points,
+            triangles: &triangles,
+        };
         near.iter()
             .map(|&i| self.stitched[i as usize].clone())
             .filter(|range| !range.is_empty())
@@ -165,9 +187,11 @@ impl<'a> Stitcher<'a> {
         let faces = self.mesh.triangles().len();
         let triangles = plan.triangles(vertices);
         let points: Vec<[f64; 3]> = plan.points.iter().map(|&p| p.into()).collect();
-        let appended = self.mesh.append(&points, &triangles, |of_vertices, of_faces| {
-            plan.attributes.append_to(of_vertices, of_faces)
-        });
+        let appended = self
+            .mesh
+            .append(&points, &triangles, |of_vertices, of_faces| {
+                plan.attributes.append_to(of_vertices, of_faces)
+            });
         if let Err(error) = appended {
             return Outcome::failed(error, plan.tried);
         }
@@ -193,7 +217,12 @@ impl Outcome {
             ErrorKind::Cancelled => HoleStatus::Cancelled,
             _ => HoleStatus::Failed,
         };
-        Self { status, reason: error.to_string(), tried, filled: None }
+        Self {
+            status,
+            reason: error.to_string(),
+            tried,
+            filled: None,
+        }
     }
 
     /// Enters the outcome in the report of a loop of the hole; `outer` bounds the patch.
@@ -229,5 +258,9 @@ impl Outcome {
 fn plan_box(mesh: &TriMesh, plan: &Plan) -> Aabb {
     let rim: Vec<Vec3> = plan.hole.rim.iter().map(|&v| mesh.point(v)).collect();
     let rim = Aabb::around(&rim);
-    if plan.points.is_empty() { rim } else { rim.union(&Aabb::around(&plan.points)) }
+    if plan.points.is_empty() {
+        rim
+    } else {
+        rim.union(&Aabb::around(&plan.points))
+    }
 }

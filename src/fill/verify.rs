@@ -24,7 +24,11 @@ const FARTHEST: f64 = 1.0;
 /// # Errors
 /// [`ErrorKind::Topology`] or [`ErrorKind::Geometry`] with the first violation found.
 pub(crate) fn check_patch(hole: &Hole, surface: &PatchSurface) -> Result<()> {
-    if let Some(v) = surface.points.iter().position(|p| !p.iter().all(|c| c.is_finite())) {
+    if let Some(v) = surface
+        .points
+        .iter()
+        .position(|p| !p.iter().all(|c| c.is_finite()))
+    {
         return Err(geometry(format!("new vertex {v} is not finite")));
     }
     let rim = Aabb::around(&hole.points);
@@ -94,8 +98,10 @@ pub(crate) fn check_against_mesh(
     for i in (0..m).filter(|&i| hole.outside_faces[i].is_some()) {
         let (a, b) = (at(i), at(i + 1));
         let known = mesh.connectivity().outgoing(b).find(|o| o.target == a);
-        if !known.is_some_and(|o| mesh.connectivity().twin(o.halfedge) == BOUNDARY) {
-            return Err(topology(format!("the edge between vertices {a} and {b} is not open")));
+        if known.is_none_or(|o| mesh.connectivity().twin(o.halfedge) != BOUNDARY) {
+            return Err(topology(format!(
+                "the edge between vertices {a} and {b} is not open"
+            )));
         }
         rim_edges.push((a.min(b), a.max(b)));
     }
@@ -106,11 +112,15 @@ pub(crate) fn check_against_mesh(
             let (a, b) = (t[k], t[(k + 1) % 3]);
             let is_rim = rim_edges.binary_search(&(a.min(b), a.max(b))).is_ok();
             if is_old(a) && is_old(b) && !is_rim && mesh.connectivity().has_edge(a, b) {
-                return Err(topology(format!("vertices {a} and {b} are joined by an edge already")));
+                return Err(topology(format!(
+                    "vertices {a} and {b} are joined by an edge already"
+                )));
             }
         }
         if t.iter().all(|&v| is_old(v)) && mesh.connectivity().has_face(mesh.triangles(), *t) {
-            return Err(topology(format!("the patch would repeat the triangle {t:?}")));
+            return Err(topology(format!(
+                "the patch would repeat the triangle {t:?}"
+            )));
         }
     }
     Ok(())

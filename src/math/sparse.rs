@@ -53,7 +53,10 @@ impl SpdSolver {
             return Ok(Vec::new());
         }
         let diagonal = |matrix: &SymmetricMatrix, j: usize| matrix.column_starts[j] as usize;
-        let mean = (0..size).map(|j| matrix.values[diagonal(&matrix, j)]).sum::<f64>() / size as f64;
+        let mean = (0..size)
+            .map(|j| matrix.values[diagonal(&matrix, j)])
+            .sum::<f64>()
+            / size as f64;
         for j in 0..size {
             let at = diagonal(&matrix, j);
             matrix.values[at] += RELATIVE_SHIFT * mean;
@@ -78,12 +81,15 @@ impl SpdSolver {
         factor.solve_in_place_with_conj(Conj::No, x.as_mut());
         self.symbolic = Some(symbolic);
         self.pattern = (matrix.column_starts, matrix.rows);
-        let solution: Vec<Vec3> =
-            (0..size).map(|i| Vec3::new(x[(i, 0)], x[(i, 1)], x[(i, 2)])).collect();
+        let solution: Vec<Vec3> = (0..size)
+            .map(|i| Vec3::new(x[(i, 0)], x[(i, 1)], x[(i, 2)]))
+            .collect();
         if solution.iter().all(|p| p.iter().all(|c| c.is_finite())) {
             Ok(solution)
         } else {
-            Err(failed(format!("the solution of {size} unknowns is not finite")))
+            Err(failed(format!(
+                "the solution of {size} unknowns is not finite"
+            )))
         }
     }
 }
@@ -98,7 +104,10 @@ mod tests {
 
     /// The second-difference matrix of a path with fixed ends.
     fn path(size: usize) -> SymmetricMatrix {
-        let mut m = SymmetricMatrix { column_starts: vec![0], ..SymmetricMatrix::default() };
+        let mut m = SymmetricMatrix {
+            column_starts: vec![0],
+            ..SymmetricMatrix::default()
+        };
         for j in 0..size as u32 {
             m.rows.push(j);
             m.values.push(2.0);
@@ -121,7 +130,10 @@ mod tests {
                 let x = solver.solve(path(size), &right_side).unwrap();
                 for (i, p) in x.iter().enumerate() {
                     let expected = i as f64 + 1.0;
-                    assert!((p - Vec3::new(expected, 0.0, -expected)).norm() < 1e-6, "{i}: {p}");
+                    assert!(
+                        (p - Vec3::new(expected, 0.0, -expected)).norm() < 1e-6,
+                        "{i}: {p}"
+                    );
                 }
             }
         }
@@ -131,7 +143,9 @@ mod tests {
     fn an_indefinite_matrix_is_an_error() {
         let mut m = path(5);
         m.values[0] = -2.0;
-        let error = SpdSolver::default().solve(m, &[Vec3::zeros(); 5]).unwrap_err();
+        let error = SpdSolver::default()
+            .solve(m, &[Vec3::zeros(); 5])
+            .unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Solver);
     }
 

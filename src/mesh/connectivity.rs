@@ -41,12 +41,20 @@ pub(crate) struct Connectivity {
 
 /// The next halfedge in the same triangle.
 pub(crate) fn next(halfedge: u32) -> u32 {
-    if halfedge % 3 == 2 { halfedge - 2 } else { halfedge + 1 }
+    if halfedge % 3 == 2 {
+        halfedge - 2
+    } else {
+        halfedge + 1
+    }
 }
 
 /// The previous halfedge in the same triangle.
 pub(crate) fn previous(halfedge: u32) -> u32 {
-    if halfedge % 3 == 0 { halfedge + 2 } else { halfedge - 1 }
+    if halfedge.is_multiple_of(3) {
+        halfedge + 2
+    } else {
+        halfedge - 1
+    }
 }
 
 /// Vertex where `halfedge` starts.
@@ -152,10 +160,7 @@ impl Connectivity {
                         defects.nonmanifold_edges.record([a, b]);
                     }
                 }
-                link if link < DEGENERATE
-                    && origin(triangles, link) == a
-                    && halfedge < link =>
-                {
+                link if link < DEGENERATE && origin(triangles, link) == a && halfedge < link => {
                     defects.inconsistent_edges.record([a, b]);
                 }
                 _ => {}
@@ -214,7 +219,11 @@ impl Connectivity {
             .flat_map_iter(|(chunk, links)| {
                 let base = (chunk * 3 * FACE_CHUNK) as u32;
                 let is_boundary = |&(_, &link): &(usize, &u32)| link == BOUNDARY;
-                links.iter().enumerate().filter(is_boundary).map(move |(i, _)| base + i as u32)
+                links
+                    .iter()
+                    .enumerate()
+                    .filter(is_boundary)
+                    .map(move |(i, _)| base + i as u32)
             })
             .collect()
     }
@@ -241,7 +250,10 @@ impl Connectivity {
         let first_halfedge = 3 * first_face as u32;
         for h in first_halfedge..3 * triangles.len() as u32 {
             let (a, b) = (origin(triangles, h), target(triangles, h));
-            let outgoing = Outgoing { target: b, halfedge: h };
+            let outgoing = Outgoing {
+                target: b,
+                halfedge: h,
+            };
             self.appended.entry(a).or_default().push(outgoing);
         }
         self.twin.resize(3 * triangles.len(), BOUNDARY);
@@ -309,8 +321,10 @@ fn bucket_outgoing(
         }
         for k in 0..3 {
             let slot = &mut first[t[k] as usize];
-            outgoing[*slot as usize] =
-                Outgoing { target: t[(k + 1) % 3], halfedge: (3 * f + k) as u32 };
+            outgoing[*slot as usize] = Outgoing {
+                target: t[(k + 1) % 3],
+                halfedge: (3 * f + k) as u32,
+            };
             *slot += 1;
         }
     }
@@ -333,7 +347,9 @@ fn bucket_outgoing(
 
 fn degenerate_or_long(first: &[u32], defects: &MeshDefects) -> bool {
     defects.degenerate_faces.count > 0
-        || first.windows(2).any(|w| (w[1] - w[0]) as usize > LINEAR_SEARCH_LIMIT)
+        || first
+            .windows(2)
+            .any(|w| (w[1] - w[0]) as usize > LINEAR_SEARCH_LIMIT)
 }
 
 /// Points the halfedges of degenerate triangles at no vertex, so that nothing is matched with them.

@@ -14,7 +14,10 @@ pub struct Defect<T> {
 
 impl<T> Default for Defect<T> {
     fn default() -> Self {
-        Self { count: 0, examples: Vec::new() }
+        Self {
+            count: 0,
+            examples: Vec::new(),
+        }
     }
 }
 
@@ -53,11 +56,36 @@ impl MeshDefects {
     #[must_use]
     pub fn summary(&self) -> Vec<String> {
         let mut lines = Vec::new();
-        describe(&mut lines, &self.nonmanifold_edges, "edges with more than two triangles", edge);
-        describe(&mut lines, &self.inconsistent_edges, "edges between triangles of opposite orientation", edge);
-        describe(&mut lines, &self.degenerate_faces, "triangles that name a vertex twice", u32::to_string);
-        describe(&mut lines, &self.duplicate_faces, "duplicate triangles", u32::to_string);
-        describe(&mut lines, &self.isolated_vertices, "vertices without a triangle", u32::to_string);
+        describe(
+            &mut lines,
+            &self.nonmanifold_edges,
+            "edges with more than two triangles",
+            edge,
+        );
+        describe(
+            &mut lines,
+            &self.inconsistent_edges,
+            "edges between triangles of opposite orientation",
+            edge,
+        );
+        describe(
+            &mut lines,
+            &self.degenerate_faces,
+            "triangles that name a vertex twice",
+            u32::to_string,
+        );
+        describe(
+            &mut lines,
+            &self.duplicate_faces,
+            "duplicate triangles",
+            u32::to_string,
+        );
+        describe(
+            &mut lines,
+            &self.isolated_vertices,
+            "vertices without a triangle",
+            u32::to_string,
+        );
         lines
     }
 }
@@ -76,6 +104,14 @@ fn describe<T>(
         return;
     }
     let places: Vec<String> = defect.examples.iter().map(place).collect();
-    let more = if defect.count > places.len() { ", ..." } else { "" };
-    lines.push(format!("{} {what} ({}{more})", defect.count, places.join(", ")));
+    let more = if defect.count > places.len() {
+        ", ..."
+    } else {
+        ""
+    };
+    lines.push(format!(
+        "{} {what} ({}{more})",
+        defect.count,
+        places.join(", ")
+    ));
 }

@@ -2,8 +2,8 @@
 
 use super::connectivity::{DEGENERATE, next, origin, previous};
 use super::trimesh::TriMesh;
-use std::collections::btree_map::{BTreeMap, Entry};
 use std::collections::BTreeSet;
+use std::collections::btree_map::{BTreeMap, Entry};
 
 /// How a walk round a vertex came to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,7 +29,11 @@ pub(crate) fn walk_fan(
     let mut entry = halfedge;
     loop {
         visit(entry / 3);
-        let exit = if origin(triangles, entry) == vertex { previous(entry) } else { next(entry) };
+        let exit = if origin(triangles, entry) == vertex {
+            previous(entry)
+        } else {
+            next(entry)
+        };
         let link = connectivity.twin(exit);
         if link >= DEGENERATE {
             return FanEnd::At(exit);

@@ -95,7 +95,12 @@ impl TriMesh {
     /// Gives the arrays back: positions, triangles, vertex and face attributes.
     #[must_use]
     pub fn into_parts(self) -> (Vec<[f64; 3]>, Vec<[u32; 3]>, Attributes, Attributes) {
-        (self.positions, self.triangles, self.vertex_attributes, self.face_attributes)
+        (
+            self.positions,
+            self.triangles,
+            self.vertex_attributes,
+            self.face_attributes,
+        )
     }
 
     pub(crate) fn connectivity(&self) -> &Connectivity {
@@ -171,7 +176,9 @@ fn check_values(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<()> {
     let not_finite = |p: &[f64; 3]| !p.iter().all(|c| c.is_finite());
     if let Some(v) = positions.iter().position(not_finite) {
         let [x, y, z] = positions[v];
-        return Err(invalid(format!("vertex {v} is not finite: ({x}, {y}, {z})")));
+        return Err(invalid(format!(
+            "vertex {v} is not finite: ({x}, {y}, {z})"
+        )));
     }
     let count = positions.len() as u32;
     let out_of_range = |t: &[u32; 3]| t.iter().any(|&v| v >= count);

@@ -5,5 +5,6 @@
 mod error;
 mod math;
 mod patch;
+mod quality;
 
 pub use error::{Error, ErrorKind, Result};

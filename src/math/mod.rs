@@ -1,6 +1,7 @@
 //! Vectors, planes and the sparse solver: no mesh, no hole.
 
 pub(crate) mod plane;
+pub(crate) mod sparse;
 
 /// A point or direction; the type that all geometry is computed in.
 pub(crate) type Vec3 = nalgebra::Vector3<f64>;
@@ -8,7 +9,11 @@ pub(crate) type Vec3 = nalgebra::Vector3<f64>;
 /// The vector along `v` of length one, or zero when `v` is too short to have a direction.
 pub(crate) fn unit(v: Vec3) -> Vec3 {
     let length = v.norm();
-    if length > f64::MIN_POSITIVE { v / length } else { Vec3::zeros() }
+    if length > f64::MIN_POSITIVE {
+        v / length
+    } else {
+        Vec3::zeros()
+    }
 }
 
 /// Twice the area of the triangle times its unit normal (counter-clockwise seen from the tip).

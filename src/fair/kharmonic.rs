@@ -1,0 +1,253 @@
+//! k-harmonic fairing with the rim and the triangles round it fixed.
+//!
+//! Based on: L. Kobbelt, S. Campagna, J. Vorsatz, H.-P. Seidel, "Interactive multi-resolution modeling on
+//! arbitrary meshes", SIGGRAPH 1998; M. Botsch, L. Kobbelt, "An intuitive framework for real-time freeform
+//! modeling", ACM TOG 23(3), 2004; the order of continuity as P. Liepa, "Filling holes in meshes", SGP 2003
+//! names it.
+//!
+//! With `L` the stiffness matrix of the Laplacian, `M` the diagonal matrix of the vertex areas and `x` the
+//! positions, the interior vertices minimise
+//!
+//! * order 1: the membrane energy `xᵀ L x`;
+//! * order 2: `|M^(-1/2) L x|²` over the interior and rim vertices, which the triangles of ring 0 join in
+//!   with the surroundings' tangent planes;
+//! * order 3: `gᵀ L g` with `g = M⁻¹ L x` over the interior, rim and ring 1 vertices, for their curvature.
+//!
+//! Vertices whose triangles do not close (on another boundary, say) contribute no energy.
+//!
+//! Not guaranteed: that the result has no self-intersection, nor that it stays near the rim.
+
+use super::laplacian::{Domain, Surroundings, Weights};
+use crate::error::Result;
+use crate::math::Vec3;
+use crate::math::sparse::{SpdSolver, SymmetricMatrix};
+use crate::patch::PatchSurface;
+
+/// Order of the energy, which is the number of rings of triangles that it reads plus one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Order {
+    /// Membrane: positions are continuous.
+    One = 1,
+    /// Thin plate: tangent planes are continuous.
+    Two = 2,
+    /// Minimal variation of curvature: curvatures are continuous.
+    Three = 3,
+}
+
+/// Moves the interior vertices of `surface` to the minimum of the energy.
+///
+/// # Errors
+/// [`crate::ErrorKind::Solver`] when the system cannot be solved; `surface` is then unchanged.
+///
+/// # Complexity
+/// That of one sparse Cholesky factorisation in the number of interior vertices `n`: about `n^1.5`.
+pub(crate) fn fair(
+    surface: &mut PatchSurface,
+    surroundings: &Surroundings,
+    order: Order,
+    weights: Weights,
+    solver: &mut SpdSolver,
+) -> Result<()> {
+    let interior = surface.points.len() - surface.rim_count;
+    if interior == 0 {
+        return Ok(());
+    }
+    let domain = Domain::new(surface, surroundings, order as u32 - 1, weights);
+    let operator = Operator::new(&domain, order);
+    let (matrix, right_side) = operator.normal_equations();
+    let solution = solver.solve(matrix, &right_side)?;
+    surface.points[surface.rim_count..].copy_from_slice(&solution);
+    Ok(())
+}
+
+/// The energy as a quadratic form, applied to sparse vectors.
+struct Operator<'a> {
+    domain: &'a Domain,
+    order: Order,
+    /// Whether the energy is summed over the vertex.
+    is_summed: Vec<bool>,
+}
+
+impl<'a> Operator<'a> {
+    fn new(domain: &'a Domain, order: Order) -> Self {
+        let last_level = if order == Order::Three { 1 } else { 0 };
+        let is_summed = (0..domain.vertex_count())
+            .map(|v| domain.levels[v] <= last_level && domain.is_complete[v])
+            .collect();
+        Self { domain, order, is_summed }
+    }
+
+    /// `out += factor * L[:, vertex]` restricted to the summed rows.
+    fn add_column(&self, vertex: usize, factor: f64, out: &mut SparseVector) {
+        let mut diagonal = 0.0;
+        for e in self.domain.row(vertex) {
+            diagonal += e.weight;
+            if self.is_summed[e.column as usize] {
+                out.add(e.column, factor * e.weight);
+            }
+        }
+        if self.is_summed[vertex] {
+            out.add(vertex as u32, -factor * diagonal);
+        }
+    }
+
+    /// `out += factor * K[:, vertex]` where `K` is the stiffness matrix between summed vertices.
+    fn add_stiffness(&self, vertex: usize, factor: f64, out: &mut SparseVector) {
+        let mut diagonal = 0.0;
+        for e in self.domain.row(vertex) {
+            if self.is_summed[e.column as usize] {
+                diagonal += e.weight;
+                out.add(e.column, -factor * e.weight);
+            }
+        }
+        out.add(vertex as u32, factor * diagonal);
+    }
+
+    /// The rows `S L[:, vertex]` of the normal equations, with `S` the inner product of the energy.
+    fn weighted_column(&self, vertex: usize, scratch: &mut Scratch) {
+        scratch.a.clear();
+        scratch.b.clear();
+        self.add_column(vertex, 1.0, &mut scratch.a);
+        for &r in &scratch.a.support {
+            let value = scratch.a.values[r as usize] / self.domain.areas[r as usize];
+            match self.order {
+                Order::Three => self.add_stiffness(r as usize, value, &mut scratch.b),
+                _ => scratch.b.add(r, value),
+            }
+        }
+        if self.order == Order::Three {
+            for &r in &scratch.b.support {
+                scratch.b.values[r as usize] /= self.domain.areas[r as usize];
+            }
+        }
+    }
+
+    /// Matrix and right-hand side over the interior vertices.
+    fn normal_equations(&self) -> (SymmetricMatrix, Vec<Vec3>) {
+        if self.order == Order::One {
+            return self.membrane_equations();
+        }
+        let domain = self.domain;
+        let mut fixed = vec![Vec3::zeros(); domain.vertex_count()];
+        for v in self.fixed_vertices() {
+            let p = domain.points[v];
+            let mut diagonal = 0.0;
+            for e in domain.row(v) {
+                diagonal += e.weight;
+                fixed[e.column as usize] += e.weight * p;
+            }
+            fixed[v] -= diagonal * p;
+        }
+        let mut scratch = Scratch::new(domain.vertex_count());
+        let mut matrix = SymmetricMatrix { column_starts: vec![0], ..SymmetricMatrix::default() };
+        let mut right_side = Vec::with_capacity(domain.patch_count - domain.rim_count);
+        let mut column: Vec<(u32, f64)> = Vec::new();
+        for v in domain.rim_count..domain.patch_count {
+            self.weighted_column(v, &mut scratch);
+            scratch.c.clear();
+            let mut sum = Vec3::zeros();
+            for &r in &scratch.b.support {
+                let value = scratch.b.values[r as usize];
+                sum -= value * fixed[r as usize];
+                self.add_interior_row(r as usize, value, v, &mut scratch.c);
+            }
+            right_side.push(sum);
+            column.clear();
+            column.extend(scratch.c.support.iter().map(|&i| (i, scratch.c.values[i as usize])));
+            column.sort_unstable_by_key(|&(i, _)| i);
+            for &(i, value) in &column {
+                matrix.rows.push(i - domain.rim_count as u32);
+                matrix.values.push(value);
+            }
+            matrix.column_starts.push(matrix.rows.len() as u32);
+        }
+        (matrix, right_side)
+    }
+
+    /// `out += factor * L[row, i]` for the interior vertices `i >= from`.
+    fn add_interior_row(&self, row: usize, factor: f64, from: usize, out: &mut SparseVector) {
+        let interior = from..self.domain.patch_count;
+        let mut diagonal = 0.0;
+        for e in self.domain.row(row) {
+            diagonal += e.weight;
+            if interior.contains(&(e.column as usize)) {
+                out.add(e.column, factor * e.weight);
+            }
+        }
+        if interior.contains(&row) {
+            out.add(row as u32, -factor * diagonal);
+        }
+    }
+
+    fn fixed_vertices(&self) -> impl Iterator<Item = usize> {
+        let domain = self.domain;
+        (0..domain.rim_count).chain(domain.patch_count..domain.vertex_count())
+    }
+
+    fn membrane_equations(&self) -> (SymmetricMatrix, Vec<Vec3>) {
+        let domain = self.domain;
+        let mut matrix = SymmetricMatrix { column_starts: vec![0], ..SymmetricMatrix::default() };
+        let mut right_side = Vec::with_capacity(domain.patch_count - domain.rim_count);
+        for v in domain.rim_count..domain.patch_count {
+            let diagonal_at = matrix.values.len();
+            matrix.rows.push((v - domain.rim_count) as u32);
+            matrix.values.push(0.0);
+            let mut sum = Vec3::zeros();
+            for e in domain.row(v) {
+                matrix.values[diagonal_at] += e.weight;
+                let u = e.column as usize;
+                if u < domain.rim_count {
+                    sum += e.weight * domain.points[u];
+                } else if u > v {
+                    matrix.rows.push((u - domain.rim_count) as u32);
+                    matrix.values.push(-e.weight);
+                }
+            }
+            right_side.push(sum);
+            matrix.column_starts.push(matrix.rows.len() as u32);
+        }
+        (matrix, right_side)
+    }
+}
+
+struct Scratch {
+    a: SparseVector,
+    b: SparseVector,
+    c: SparseVector,
+}
+
+impl Scratch {
+    fn new(size: usize) -> Self {
+        Self { a: SparseVector::new(size), b: SparseVector::new(size), c: SparseVector::new(size) }
+    }
+}
+
+/// A vector with few non-zero entries, stored densely with a list of them.
+struct SparseVector {
+    values: Vec<f64>,
+    is_listed: Vec<bool>,
+    support: Vec<u32>,
+}
+
+impl SparseVector {
+    fn new(size: usize) -> Self {
+        Self { values: vec![0.0; size], is_listed: vec![false; size], support: Vec::new() }
+    }
+
+    fn add(&mut self, index: u32, value: f64) {
+        let i = index as usize;
+        if !self.is_listed[i] {
+            self.is_listed[i] = true;
+            self.support.push(index);
+        }
+        self.values[i] += value;
+    }
+
+    fn clear(&mut self) {
+        for &index in &self.support {
+            self.values[index as usize] = 0.0;
+            self.is_listed[index as usize] = false;
+        }
+        self.support.clear();
+    }
+}

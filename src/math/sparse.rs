@@ -1,0 +1,144 @@
+//! Sparse symmetric positive definite systems, solved by the supernodal Cholesky factorisation of `faer`.
+
+use super::Vec3;
+use crate::error::{Error, ErrorKind, Result};
+use faer::linalg::solvers::SolveCore;
+use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Conj, Mat, Side};
+
+/// Added to the diagonal, relative to its mean, against loss of definiteness by rounding.
+const RELATIVE_SHIFT: f64 = 1e-12;
+
+/// The lower triangle of a symmetric matrix, column by column, with ascending rows.
+///
+/// The diagonal entry comes first in each column and must be present.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SymmetricMatrix {
+    /// Start of each column in `rows` and `values`; one more entry than columns.
+    pub(crate) column_starts: Vec<u32>,
+    /// Row of each entry.
+    pub(crate) rows: Vec<u32>,
+    /// Value of each entry.
+    pub(crate) values: Vec<f64>,
+}
+
+impl SymmetricMatrix {
+    /// Number of rows and columns.
+    pub(crate) fn size(&self) -> usize {
+        self.column_starts.len().saturating_sub(1)
+    }
+}
+
+/// A solver that keeps the symbolic factorisation while the pattern of the matrix stays the same.
+#[derive(Default)]
+pub(crate) struct SpdSolver {
+    pattern: (Vec<u32>, Vec<u32>),
+    symbolic: Option<SymbolicLlt<u32>>,
+}
+
+impl SpdSolver {
+    /// Solves `matrix * x = right_side` for three coordinates at once and returns `x`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Solver`] when the matrix is not positive definite or the solution not finite.
+    pub(crate) fn solve(
+        &mut self,
+        mut matrix: SymmetricMatrix,
+        right_side: &[Vec3],
+    ) -> Result<Vec<Vec3>> {
+        let size = matrix.size();
+        debug_assert_eq!(size, right_side.len());
+        if size == 0 {
+            return Ok(Vec::new());
+        }
+        let diagonal = |matrix: &SymmetricMatrix, j: usize| matrix.column_starts[j] as usize;
+        let mean = (0..size).map(|j| matrix.values[diagonal(&matrix, j)]).sum::<f64>() / size as f64;
+        for j in 0..size {
+            let at = diagonal(&matrix, j);
+            matrix.values[at] += RELATIVE_SHIFT * mean;
+        }
+        let pattern = SymbolicSparseColMatRef::new_checked(
+            size,
+            size,
+            &matrix.column_starts,
+            None,
+            &matrix.rows,
+        );
+        let is_known = self.pattern.0 == matrix.column_starts && self.pattern.1 == matrix.rows;
+        let symbolic = match self.symbolic.take().filter(|_| is_known) {
+            Some(symbolic) => symbolic,
+            None => SymbolicLlt::try_new(pattern, Side::Lower)
+                .map_err(|e| failed(format!("symbolic factorisation: {e:?}")))?,
+        };
+        let values = SparseColMatRef::new(pattern, &matrix.values[..]);
+        let factor = Llt::try_new_with_symbolic(symbolic.clone(), values, Side::Lower)
+            .map_err(|e| failed(format!("factorisation of {size} unknowns: {e:?}")))?;
+        let mut x = Mat::from_fn(size, 3, |i, k| right_side[i][k]);
+        factor.solve_in_place_with_conj(Conj::No, x.as_mut());
+        self.symbolic = Some(symbolic);
+        self.pattern = (matrix.column_starts, matrix.rows);
+        let solution: Vec<Vec3> =
+            (0..size).map(|i| Vec3::new(x[(i, 0)], x[(i, 1)], x[(i, 2)])).collect();
+        if solution.iter().all(|p| p.iter().all(|c| c.is_finite())) {
+            Ok(solution)
+        } else {
+            Err(failed(format!("the solution of {size} unknowns is not finite")))
+        }
+    }
+}
+
+fn failed(message: String) -> Error {
+    Error::new(ErrorKind::Solver, message)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The second-difference matrix of a path with fixed ends.
+    fn path(size: usize) -> SymmetricMatrix {
+        let mut m = SymmetricMatrix { column_starts: vec![0], ..SymmetricMatrix::default() };
+        for j in 0..size as u32 {
+            m.rows.push(j);
+            m.values.push(2.0);
+            if j + 1 < size as u32 {
+                m.rows.push(j + 1);
+                m.values.push(-1.0);
+            }
+            m.column_starts.push(m.rows.len() as u32);
+        }
+        m
+    }
+
+    #[test]
+    fn a_linear_function_solves_the_path() {
+        for size in [1, 2, 7, 300] {
+            let mut right_side = vec![Vec3::zeros(); size];
+            right_side[size - 1] = Vec3::new(size as f64 + 1.0, 0.0, -(size as f64) - 1.0);
+            let mut solver = SpdSolver::default();
+            for _ in 0..2 {
+                let x = solver.solve(path(size), &right_side).unwrap();
+                for (i, p) in x.iter().enumerate() {
+                    let expected = i as f64 + 1.0;
+                    assert!((p - Vec3::new(expected, 0.0, -expected)).norm() < 1e-6, "{i}: {p}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_indefinite_matrix_is_an_error() {
+        let mut m = path(5);
+        m.values[0] = -2.0;
+        let error = SpdSolver::default().solve(m, &[Vec3::zeros(); 5]).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Solver);
+    }
+
+    #[test]
+    fn values_that_are_not_finite_are_an_error() {
+        let mut m = path(5);
+        m.values[2] = f64::NAN;
+        assert!(SpdSolver::default().solve(m, &[Vec3::zeros(); 5]).is_err());
+    }
+}

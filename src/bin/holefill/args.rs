@@ -37,18 +37,18 @@ pub(crate) enum Command {
 pub(crate) struct FillArgs {
     /// Mesh to fill
     pub(crate) input: PathBuf,
-    /// Filled mesh: the vertices and triangles of INPUT unchanged and in order, then the new ones.
+    /// Filled mesh: what INPUT has, unchanged and in order, then what is new.
     /// Appears whole or not at all; may be INPUT itself, which is then replaced
-    #[arg(short, long)]
+    #[arg(short, long, verbatim_doc_comment)]
     pub(crate) output: PathBuf,
     /// How to fill; the methods are listed below
     #[arg(long, value_name = "NAME", default_value_t, value_parser = Method::from_str)]
     pub(crate) method: Method,
-    /// Leave the loop through the boundary edge from vertex V0 to V1 open; can be repeated.
-    /// The edge is directed as in its triangle, vertices count from 0; see `holefill inspect`
-    #[arg(long, value_name = "V0,V1", value_parser = parse_edge)]
+    /// Leave the loop through this boundary edge open; can be repeated. It runs from
+    /// vertex V0 to V1 (counted from 0) as in its triangle; see `holefill inspect`
+    #[arg(long, value_name = "V0,V1", value_parser = parse_edge, verbatim_doc_comment)]
     pub(crate) keep: Vec<[u32; 2]>,
-    /// Fill only the loop through this boundary edge; can be repeated [default: fill every loop]
+    /// Fill only the loop through this edge; can be repeated [default: every loop]
     #[arg(long = "loop", value_name = "V0,V1", value_parser = parse_edge)]
     pub(crate) only: Vec<[u32; 2]>,
     /// Leave loops with more than N edges open [default: no limit]
@@ -66,13 +66,14 @@ pub(crate) struct FillArgs {
     /// Seed of the methods that use random numbers
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
-    /// Threads to fill with, 0 for as many as there are processors; the result does not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    /// Threads to fill with, 0 for as many as there are processors;
+    /// the result does not depend on it
+    #[arg(long, verbatim_doc_comment, value_name = "N", default_value_t = 0)]
     pub(crate) threads: usize,
-    /// Also write what happened to each hole, as JSON (times in seconds, angles in degrees)
+    /// Also write what happened to each hole, as JSON (seconds, degrees)
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,
-    /// Also draw the mesh before and after, patches in orange (1600 x 800 pixels)
+    /// Also draw the mesh before and after, patches in orange
     #[arg(long, value_name = "FILE.png")]
     pub(crate) preview: Option<PathBuf>,
     /// Print nothing but errors
@@ -125,7 +126,9 @@ pub(crate) fn parse() -> Result<Command, clap::Error> {
     let mut command =
         Cli::command().mut_subcommand("fill", |fill| fill.after_help(methods_and_parameters()));
     let matches = command.try_get_matches_from_mut(std::env::args_os())?;
-    Cli::from_arg_matches(&matches).map(|cli| cli.command).map_err(|e| e.format(&mut command))
+    Cli::from_arg_matches(&matches)
+        .map(|cli| cli.command)
+        .map_err(|e| e.format(&mut command))
 }
 
 /// Prints what [`parse`] could not go on with: help that was asked for, or an error.
@@ -146,28 +149,43 @@ pub(crate) fn report_error(error: &clap::Error) -> ExitCode {
 }
 
 fn parse_edge(text: &str) -> Result<[u32; 2], String> {
-    let vertices = text.split_once(',').and_then(|(a, b)| Some([a.parse().ok()?, b.parse().ok()?]));
+    let vertices = text
+        .split_once(',')
+        .and_then(|(a, b)| Some([a.parse().ok()?, b.parse().ok()?]));
     vertices.ok_or_else(|| "an edge is two vertex numbers with a comma, such as 17,42".to_owned())
 }
 
 fn parse_setting(text: &str) -> Result<(String, String), String> {
-    let pair = text.split_once('=').map(|(key, value)| (key.to_owned(), value.to_owned()));
+    let pair = text
+        .split_once('=')
+        .map(|(key, value)| (key.to_owned(), value.to_owned()));
     let (key, value) =
         pair.ok_or_else(|| "a setting is KEY=VALUE, such as refine.density=2".to_owned())?;
-    FillOptions::default().set(&key, &value).map_err(|e| e.to_string())?;
+    FillOptions::default()
+        .set(&key, &value)
+        .map_err(|e| e.to_string())?;
     Ok((key, value))
 }
 
 fn methods_and_parameters() -> String {
     let mut text = String::from("Methods:\n");
-    let width = Method::ALL.iter().map(|m| m.name().len()).max().unwrap_or(0);
+    let width = Method::ALL
+        .iter()
+        .map(|m| m.name().len())
+        .max()
+        .unwrap_or(0);
     for method in Method::ALL {
         let _ = writeln!(text, "  {:width$}  {}", method.name(), method.summary());
     }
     text.push_str("\nParameters for --set:\n");
     let defaults = FillOptions::default();
     for parameter in FillOptions::PARAMETERS {
-        let Parameter { name, help, allowed, .. } = parameter;
+        let Parameter {
+            name,
+            help,
+            allowed,
+            ..
+        } = parameter;
         let value = parameter.value(&defaults);
         let _ = writeln!(text, "  {name}: {help}\n      {allowed} [default: {value}]");
     }
@@ -190,7 +208,17 @@ mod tests {
     #[test]
     fn an_edge_is_exactly_two_numbers() {
         assert_eq!(parse_edge("3,4"), Ok([3, 4]));
-        for text in ["", "3", "3,", ",4", "3,4,5", "3;4", "-1,2", "3, 4", "4294967296,0"] {
+        for text in [
+            "",
+            "3",
+            "3,",
+            ",4",
+            "3,4,5",
+            "3;4",
+            "-1,2",
+            "3, 4",
+            "4294967296,0",
+        ] {
             assert!(parse_edge(text).is_err(), "{text}");
         }
     }
@@ -198,7 +226,13 @@ mod tests {
     #[test]
     fn a_setting_is_checked_when_it_is_read() {
         assert!(parse_setting("refine.density=2").is_ok());
-        for text in ["refine.density", "refine.density=", "refine.density=0", "=1", "density=1"] {
+        for text in [
+            "refine.density",
+            "refine.density=",
+            "refine.density=0",
+            "=1",
+            "density=1",
+        ] {
             assert!(parse_setting(text).is_err(), "{text}");
         }
     }

@@ -16,13 +16,20 @@ pub(crate) fn run(args: &CompareArgs) -> Result<Outcome, Failure> {
             let (a, b) = (args.a.display(), args.b.display());
             Failure::file(format!("cannot compare {a} (first) with {b} (second): {e}"))
         })?;
-    let text = if args.json { as_json(&a, &b, &deviation) } else { as_table(&deviation) };
+    let text = if args.json {
+        as_json(&a, &b, &deviation)
+    } else {
+        as_table(&deviation)
+    };
     console::print(&text)?;
     Ok(Outcome::Complete)
 }
 
 fn as_table(deviation: &Deviation) -> String {
-    let mut text = format!("{:<12}{:>12}{:>12}{:>12}\n", "DISTANCE", "MEAN", "RMS", "MAX");
+    let mut text = format!(
+        "{:<12}{:>12}{:>12}{:>12}\n",
+        "DISTANCE", "MEAN", "RMS", "MAX"
+    );
     let mut row = |name: &str, [mean, rms, max]: [String; 3]| {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{name:<12}{mean:>12}{rms:>12}{max:>12}");
@@ -30,9 +37,18 @@ fn as_table(deviation: &Deviation) -> String {
     for (name, way) in [("A to B", &deviation.a_to_b), ("B to A", &deviation.b_to_a)] {
         row(name, [way.mean, way.rms, way.max].map(number));
     }
-    let both = [String::new(), number(deviation.symmetric_rms), number(deviation.hausdorff)];
+    let both = [
+        String::new(),
+        number(deviation.symmetric_rms),
+        number(deviation.hausdorff),
+    ];
     row("both ways", both);
-    if let Some(NormalAngles { mean_deg, p95_deg, max_deg }) = &deviation.normals {
+    if let Some(NormalAngles {
+        mean_deg,
+        p95_deg,
+        max_deg,
+    }) = &deviation.normals
+    {
         let _ = writeln!(
             text,
             "normals: mean {mean_deg:.3}°, 95 % below {p95_deg:.3}°, max {max_deg:.3}°"
@@ -56,10 +72,10 @@ fn as_json(a: &MeshData, b: &MeshData, deviation: &Deviation) -> String {
         Value::Null,
         |n| json!({"mean_deg": n.mean_deg, "p95_deg": n.p95_deg, "max_deg": n.max_deg}),
     );
-    let points = deviation
-        .point_errors
-        .as_ref()
-        .map_or(Value::Null, |p| json!({"ape": p.ape, "mpe": p.mpe, "vertices": p.vertices}));
+    let points = deviation.point_errors.as_ref().map_or(
+        Value::Null,
+        |p| json!({"ape": p.ape, "mpe": p.mpe, "vertices": p.vertices}),
+    );
     report::pretty(&json!({
         "a": counts(a),
         "b": counts(b),

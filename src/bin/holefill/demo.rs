@@ -88,7 +88,10 @@ impl Knot {
             let k = lengths.partition_point(|&l| l <= wanted).clamp(1, fine) - 1;
             step * (k as f64 + (wanted - lengths[k]) / (lengths[k + 1] - lengths[k]))
         };
-        Self { length, parameters: (0..=ALONG).map(parameter).collect() }
+        Self {
+            length,
+            parameters: (0..=ALONG).map(parameter).collect(),
+        }
     }
 
     fn parameter(&self, along: f64) -> f64 {
@@ -111,7 +114,7 @@ impl Knot {
         let round = Vec3::z().cross(&core) * (2.0 * (TORUS_RADIUS + KNOT_RADIUS * out.cos()));
         let tangent = round + (Vec3::z() * out.cos() - core * out.sin()) * (3.0 * KNOT_RADIUS);
         let center = core * TORUS_RADIUS + outward * KNOT_RADIUS;
-        [center, outward, tangent.normalize().cross(&outward)]
+        [center, outward, outward.cross(&tangent.normalize())]
     }
 
     fn point(&self, place: Place) -> Vec3 {
@@ -124,7 +127,10 @@ impl Knot {
     fn facing(&self, parameter: f64) -> Place {
         let along = self.along(parameter);
         let [_, outward, sideward] = self.frame(along);
-        Place { along, angle: sideward.z.atan2(outward.z) }
+        Place {
+            along,
+            angle: sideward.z.atan2(outward.z),
+        }
     }
 
     /// The way from `center` to `place` on the surface: along the tube, and round it.
@@ -140,7 +146,7 @@ impl Knot {
 /// The tube swells three times, and carries flutes that wind round it.
 fn radius(place: Place) -> f64 {
     let swell = 1.0 + 0.13 * (3.0 * TAU * place.along).cos();
-    let flutes = 1.0 + 0.045 * (5.0 * place.angle + 17.0 * TAU * place.along).sin();
+    let flutes = 1.0 + 0.07 * (5.0 * place.angle + 17.0 * TAU * place.along).sin();
     TUBE_RADIUS * swell * flutes
 }
 
@@ -164,20 +170,30 @@ struct Damage {
 
 impl Damage {
     fn new(knot: &Knot) -> Self {
-        let [top, lobe] = [PI / 6.0, 0.0].map(|first| {
-            [0.0, 1.0, 2.0].map(|turn| knot.facing(first + turn * TAU / 3.0))
-        });
+        let [top, lobe] = [PI / 6.0, 0.0]
+            .map(|first| [0.0, 1.0, 2.0].map(|turn| knot.facing(first + turn * TAU / 3.0)));
         let small = (0..SMALL_HOLES as u64).map(|k| {
-            let place = Place { along: scatter(4 * k), angle: PI * scatter(4 * k + 1) };
+            let place = Place {
+                along: scatter(4 * k),
+                angle: PI * scatter(4 * k + 1),
+            };
             (place, 0.085 + 0.035 * scatter(4 * k + 2))
         });
         let [large, with_island, round_the_tube] = top;
         let named = [large, with_island, round_the_tube, lobe[0], lobe[1]];
         let is_clear = |place: Place| {
-            named.iter().all(|&center| knot.offset(center, place)[0].abs() > 1.2)
+            named
+                .iter()
+                .all(|&center| knot.offset(center, place)[0].abs() > 1.2)
         };
         let small = small.filter(|(place, _)| is_clear(*place)).collect();
-        Self { large, with_island, round_the_tube, crack: lobe[0], small }
+        Self {
+            large,
+            with_island,
+            round_the_tube,
+            crack: lobe[0],
+            small,
+        }
     }
 
     fn is_missing(&self, knot: &Knot, place: Place) -> bool {
@@ -193,7 +209,7 @@ impl Damage {
 
         let [x, y] = knot.offset(self.crack, place);
         let middle = 0.14 * (4.0 * x).sin() + 0.03 * (19.0 * x).sin();
-        let in_crack = x.abs() < 1.0 && (y - middle).abs() < 0.045 * (1.15 - x.abs());
+        let in_crack = x.abs() < 1.0 && (y - middle).abs() < 0.022;
 
         let in_small = self.small.iter().any(|&(center, size)| {
             let [x, y] = knot.offset(center, place);
@@ -207,51 +223,66 @@ impl Damage {
 fn is_in_touching_holes(cell: [usize; 2], corner: [usize; 2]) -> bool {
     let from_corner = |k: usize, count: usize| {
         let d = (cell[k] + count - corner[k]) % count;
-        if d < count / 2 { d as f64 + 0.5 } else { d as f64 + 0.5 - count as f64 }
+        if d < count / 2 {
+            d as f64 + 0.5
+        } else {
+            d as f64 + 0.5 - count as f64
+        }
     };
     let [x, y] = [from_corner(0, ALONG), from_corner(1, AROUND)];
-    // Circles through the corner, about points on the diagonal.
-    [4.5, -4.0].into_iter().any(|c: f64| (x - c).hypot(y - c) < c.abs() * 2f64.sqrt())
+    // Circles through the corner, each in a quarter of its own.
+    (x * y > 0.0)
+        && [4.5, -4.0]
+            .iter()
+            .any(|c: &f64| (x - c).hypot(y - c) < c.abs() * 2f64.sqrt())
 }
 
 fn damaged_knot() -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     let knot = Knot::new();
     let damage = Damage::new(&knot);
-    let place = |x: f64, y: f64| Place { along: x / ALONG as f64, angle: TAU * y / AROUND as f64 };
+    let place = |x: f64, y: f64| Place {
+        along: x / ALONG as f64,
+        angle: TAU * y / AROUND as f64,
+    };
     let touching = knot.facing(TAU / 3.0);
     let corner = [
         (touching.along * ALONG as f64) as usize,
         (touching.angle.rem_euclid(TAU) / TAU * AROUND as f64) as usize,
     ];
 
-    let vertex = |i: usize, j: usize| ((i % ALONG) * AROUND + j % AROUND) as u32;
+    let places: Vec<Place> = (0..ALONG * AROUND)
+        .map(|v| {
+            let moved = |key: usize| UNEVENNESS * scatter((2 * v + key) as u64 + (1 << 32));
+            place(
+                (v / AROUND) as f64 + moved(0),
+                (v % AROUND) as f64 + moved(1),
+            )
+        })
+        .collect();
+    let is_missing: Vec<bool> = places
+        .iter()
+        .map(|&p| damage.is_missing(&knot, p))
+        .collect();
+    let vertex = |i: usize, j: usize| (i % ALONG) * AROUND + j % AROUND;
     let mut triangles = Vec::new();
     for i in 0..ALONG {
-        for j in 0..AROUND {
-            if is_in_touching_holes([i, j], corner) {
-                continue;
-            }
-            let [a, b, c, d] =
-                [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)];
-            let (x, y) = (i as f64, j as f64);
-            let halves = if scatter(u64::from(a)) > 0.0 {
-                [([a, b, c], [2.0, 1.0]), ([a, c, d], [1.0, 2.0])]
+        for j in (0..AROUND).filter(|&j| !is_in_touching_holes([i, j], corner)) {
+            let [a, b, c, d] = [
+                vertex(i, j),
+                vertex(i + 1, j),
+                vertex(i + 1, j + 1),
+                vertex(i, j + 1),
+            ];
+            let halves = if scatter(a as u64) > 0.0 {
+                [[a, b, c], [a, c, d]]
             } else {
-                [([a, b, d], [1.0, 1.0]), ([b, c, d], [2.0, 2.0])]
+                [[a, b, d], [b, c, d]]
             };
-            for (triangle, [dx, dy]) in halves {
-                if !damage.is_missing(&knot, place(x + dx / 3.0, y + dy / 3.0)) {
-                    triangles.push(triangle);
-                }
-            }
+            let kept = halves.iter().filter(|t| !t.iter().any(|&v| is_missing[v]));
+            triangles.extend(kept.map(|t| t.map(|v| v as u32)));
         }
     }
-    let point = |v: u32| {
-        let moved = |key: u64| UNEVENNESS * scatter(key);
-        let (i, j) = (v as usize / AROUND, v as usize % AROUND);
-        let key = 2 * (u64::from(v) + (1 << 32));
-        knot.point(place(i as f64 + moved(key), j as f64 + moved(key + 1))).into()
-    };
+    let point = |v: u32| knot.point(places[v as usize]).into();
     without_unused(point, triangles)
 }
 
@@ -278,12 +309,20 @@ mod tests {
     #[test]
     fn the_model_is_clean_and_has_every_kind_of_hole() {
         let (positions, triangles) = damaged_knot();
-        assert!((100_000..150_000).contains(&triangles.len()), "{}", triangles.len());
+        assert!(
+            (100_000..150_000).contains(&triangles.len()),
+            "{}",
+            triangles.len()
+        );
         let mesh = TriMesh::new(positions, triangles).unwrap();
         assert!(mesh.defects().is_empty(), "{:?}", mesh.defects().summary());
         let loops = BoundaryLoops::find(&mesh).loops;
         let count = |class| loops.iter().filter(|l| l.class == class).count();
-        assert!(count(LoopClass::Simple) >= 12, "{}", count(LoopClass::Simple));
+        assert!(
+            count(LoopClass::Simple) >= 12,
+            "{}",
+            count(LoopClass::Simple)
+        );
         assert!(count(LoopClass::Touching) >= 2);
         assert_eq!(count(LoopClass::Island), 1);
         assert_eq!(count(LoopClass::OuterRim) + count(LoopClass::OpenChain), 0);

@@ -8,7 +8,10 @@ use std::path::{Path, PathBuf};
 /// Checks that a file can be made at `path`: it is no folder, and its folder takes new files.
 pub(crate) fn check(path: &Path) -> Result<(), Failure> {
     let fail = |why: &dyn std::fmt::Display| {
-        Err(Failure::file(format!("cannot write {}: {why}", path.display())))
+        Err(Failure::file(format!(
+            "cannot write {}: {why}",
+            path.display()
+        )))
     };
     match fs::metadata(path) {
         Ok(found) if found.is_dir() => return fail(&"it is a folder"),
@@ -58,7 +61,9 @@ fn write_whole(
         return file.flush();
     }
     let mut builder = tempfile::Builder::new();
-    if let Some(permissions) = existing.map(|found| found.permissions()).or_else(usual_permissions)
+    if let Some(permissions) = existing
+        .map(|found| found.permissions())
+        .or_else(usual_permissions)
     {
         builder.permissions(permissions);
     }
@@ -140,8 +145,16 @@ mod tests {
         write(&link, |out| out.write_all(b"new")).unwrap();
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
         assert_eq!(fs::read_to_string(&target).unwrap(), "new");
-        assert_eq!(fs::metadata(&target).unwrap().permissions().mode() & 0o777, 0o640);
+        assert_eq!(
+            fs::metadata(&target).unwrap().permissions().mode() & 0o777,
+            0o640
+        );
         write(Path::new("/dev/null"), |out| out.write_all(b"x")).unwrap();
-        assert!(fs::metadata("/dev/null").unwrap().file_type().is_char_device());
+        assert!(
+            fs::metadata("/dev/null")
+                .unwrap()
+                .file_type()
+                .is_char_device()
+        );
     }
 }

@@ -11,7 +11,7 @@ use holefill::{
     TriMesh,
 };
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::{IsTerminal, Write};
+use std::io::IsTerminal;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
@@ -21,9 +21,16 @@ pub(crate) fn run(args: &FillArgs) -> Result<Outcome, Failure> {
     let options = options(args)?;
     let selection = selection(args)?;
 
-    let Loaded { mut mesh, boundary, file, seconds } = input::load(&args.input, args.quiet)?;
+    let Loaded {
+        mut mesh,
+        boundary,
+        file,
+        seconds,
+    } = input::load(&args.input, args.quiet)?;
     // Before the work starts: what is asked for must exist.
-    selection.reasons_to_keep(&boundary).map_err(|e| Failure::usage(e.to_string()))?;
+    selection
+        .reasons_to_keep(&boundary)
+        .map_err(|e| Failure::usage(e.to_string()))?;
     let before = [mesh.positions().len(), mesh.triangles().len()];
     let report = fill(&mut mesh, &boundary, &selection, &options, args.quiet)?;
     let after = [mesh.positions().len(), mesh.triangles().len()];
@@ -33,7 +40,13 @@ pub(crate) fn run(args: &FillArgs) -> Result<Outcome, Failure> {
     let write_seconds = seconds_since(start);
 
     if let Some(path) = &args.report {
-        let facts = facts(args, [before, after], seconds, report.index_seconds, write_seconds);
+        let facts = facts(
+            args,
+            [before, after],
+            seconds,
+            report.index_seconds,
+            write_seconds,
+        );
         let text = report::fill(&facts, &report);
         destination::write(path, |out| out.write_all(text.as_bytes()))?;
     }
@@ -47,7 +60,10 @@ pub(crate) fn run(args: &FillArgs) -> Result<Outcome, Failure> {
     if unfilled == 0 {
         return Ok(Outcome::Complete);
     }
-    console::message(&format!("{unfilled} of {} holes could not be filled", report.holes.len()));
+    console::message(&format!(
+        "{unfilled} of {} holes could not be filled",
+        report.holes.len()
+    ));
     Ok(Outcome::SomeFailed)
 }
 
@@ -59,8 +75,11 @@ fn check_destinations(args: &FillArgs) -> Result<(), Failure> {
             args.output.display()
         )));
     }
-    let extra: Vec<&Path> =
-        [&args.report, &args.preview].into_iter().flatten().map(|path| path.as_path()).collect();
+    let extra: Vec<&Path> = [&args.report, &args.preview]
+        .into_iter()
+        .flatten()
+        .map(|path| path.as_path())
+        .collect();
     for (i, path) in extra.iter().enumerate() {
         let others = [args.input.as_path(), args.output.as_path()];
         let mut others = others.iter().chain(&extra[..i]);
@@ -84,7 +103,9 @@ fn options(args: &FillArgs) -> Result<FillOptions, Failure> {
     options.seed = args.seed;
     options.threads = args.threads;
     for (key, value) in &args.set {
-        options.set(key, value).map_err(|e| Failure::usage(e.to_string()))?;
+        options
+            .set(key, value)
+            .map_err(|e| Failure::usage(e.to_string()))?;
     }
     Ok(options)
 }
@@ -98,8 +119,14 @@ fn selection(args: &FillArgs) -> Result<Selection, Failure> {
         keep_largest: args.keep_largest,
     };
     // What is wrong with any mesh is found with an empty one, before the file is read.
-    let rules = Selection { only: Vec::new(), keep: Vec::new(), ..selection.clone() };
-    rules.reasons_to_keep(&BoundaryLoops::default()).map_err(|e| Failure::usage(e.to_string()))?;
+    let rules = Selection {
+        only: Vec::new(),
+        keep: Vec::new(),
+        ..selection.clone()
+    };
+    rules
+        .reasons_to_keep(&BoundaryLoops::default())
+        .map_err(|e| Failure::usage(e.to_string()))?;
     Ok(selection)
 }
 
@@ -143,8 +170,12 @@ fn write_mesh(
     mut file: MeshData,
     quiet: bool,
 ) -> Result<MeshData, Failure> {
-    (file.positions, file.triangles, file.vertex_attributes, file.face_attributes) =
-        mesh.into_parts();
+    (
+        file.positions,
+        file.triangles,
+        file.vertex_attributes,
+        file.face_attributes,
+    ) = mesh.into_parts();
     let notes = io::write(path, &file).map_err(|e| Failure::file(e.to_string()))?;
     if !quiet {
         console::notes(&notes);
@@ -166,7 +197,11 @@ fn facts(
         read_seconds: load.read,
         build_seconds: load.build + load.loops + index_seconds,
         write_seconds,
-        threads: if args.threads == 0 { available() } else { args.threads },
+        threads: if args.threads == 0 {
+            available()
+        } else {
+            args.threads
+        },
         seed: args.seed,
     }
 }
@@ -177,7 +212,11 @@ fn draw(
     first_new: usize,
     report: &FillReport,
 ) -> Result<(), Failure> {
-    let patches: Vec<_> = report.holes.iter().map(|h| h.new_triangles.clone()).collect();
+    let patches: Vec<_> = report
+        .holes
+        .iter()
+        .map(|h| h.new_triangles.clone())
+        .collect();
     let picture = preview::draw(&Scene {
         positions: &mesh.positions,
         triangles: &mesh.triangles,

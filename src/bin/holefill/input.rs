@@ -55,7 +55,12 @@ pub(crate) fn load(path: &Path, quiet: bool) -> Result<Loaded, Failure> {
     let start = Instant::now();
     let boundary = BoundaryLoops::find(&mesh);
     let loops = seconds_since(start);
-    Ok(Loaded { mesh, boundary, file, seconds: LoadSeconds { read, build, loops } })
+    Ok(Loaded {
+        mesh,
+        boundary,
+        file,
+        seconds: LoadSeconds { read, build, loops },
+    })
 }
 
 pub(crate) fn seconds_since(start: Instant) -> f64 {

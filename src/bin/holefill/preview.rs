@@ -20,7 +20,7 @@ const SAMPLES: usize = 2;
 const SIZE: usize = HEIGHT * SAMPLES;
 
 /// Colors, linear: what they are when fully lit.
-const MESH: Vec3 = Vec3::new(0.56, 0.58, 0.61);
+const MESH: Vec3 = Vec3::new(0.47, 0.49, 0.52);
 const MESH_INSIDE: Vec3 = Vec3::new(0.10, 0.17, 0.30);
 const PATCH: Vec3 = Vec3::new(0.92, 0.33, 0.045);
 const PATCH_INSIDE: Vec3 = Vec3::new(0.42, 0.10, 0.02);
@@ -28,10 +28,10 @@ const BACKGROUND_TOP: Vec3 = Vec3::new(0.95, 0.96, 0.97);
 const BACKGROUND_BOTTOM: Vec3 = Vec3::new(0.72, 0.75, 0.79);
 
 /// Lights: where from (right, up, towards the eye) and how bright.
-const KEY: (Vec3, f32) = (Vec3::new(-0.42, 0.56, 0.71), 0.85);
+const KEY: (Vec3, f32) = (Vec3::new(-0.50, 0.62, 0.60), 1.0);
 const FILL: (Vec3, f32) = (Vec3::new(0.77, 0.06, 0.63), 0.22);
-const AMBIENT_ABOVE: f32 = 0.34;
-const AMBIENT_BELOW: f32 = 0.16;
+const AMBIENT_ABOVE: f32 = 0.30;
+const AMBIENT_BELOW: f32 = 0.13;
 const HIGHLIGHT: f32 = 0.10;
 const HIGHLIGHT_EXPONENT: i32 = 36;
 
@@ -40,6 +40,7 @@ const SMOOTH_COSINE: f32 = 0.766;
 /// How far hollows are searched for, in samples.
 const HOLLOW_RADIUS: f32 = SIZE as f32 * 0.035;
 const HOLLOW_PAIRS: usize = 12;
+const GOLDEN_ANGLE: f32 = 2.399_963;
 const HOLLOW_STRENGTH: f32 = 1.3;
 
 /// What to draw.
@@ -60,7 +61,11 @@ pub(crate) struct Picture {
 
 /// Draws `scene` without its patches on the left and with them on the right.
 pub(crate) fn draw(scene: &Scene<'_>) -> Picture {
-    let Scene { triangles, first_new, .. } = *scene;
+    let Scene {
+        triangles,
+        first_new,
+        ..
+    } = *scene;
     let points = centred(scene.positions, triangles);
     let view = view::choose(&points, triangles, first_new, scene.patches);
     let places = view.project(&points, triangles, SIZE);
@@ -79,12 +84,14 @@ pub(crate) fn draw(scene: &Scene<'_>) -> Picture {
     };
     let width = 2 * HEIGHT;
     let mut rgb = vec![0; 3 * width * HEIGHT];
-    rgb.par_chunks_mut(3 * width).enumerate().for_each(|(row, pixels)| {
-        for (column, pixel) in pixels.chunks_exact_mut(3).enumerate() {
-            let canvas = if column < HEIGHT { &before } else { &after };
-            pixel.copy_from_slice(&surface.pixel(canvas, column % HEIGHT, row));
-        }
-    });
+    rgb.par_chunks_mut(3 * width)
+        .enumerate()
+        .for_each(|(row, pixels)| {
+            for (column, pixel) in pixels.chunks_exact_mut(3).enumerate() {
+                let canvas = if column < HEIGHT { &before } else { &after };
+                pixel.copy_from_slice(&surface.pixel(canvas, column % HEIGHT, row));
+            }
+        });
     Picture { width, rgb }
 }
 
@@ -109,12 +116,16 @@ fn centred(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<Vec3> {
         }
     }
     // Halves, because the difference of two finite numbers need not be finite.
-    let extent = (0..3).map(|k| high[k] / 2.0 - low[k] / 2.0).fold(0.0, f64::max);
+    let extent = (0..3)
+        .map(|k| high[k] / 2.0 - low[k] / 2.0)
+        .fold(0.0, f64::max);
     let scale = if extent > 0.0 { extent } else { 1.0 };
-    let coordinate = |p: &[f64; 3], k: usize| {
-        ((p[k] / 2.0 - low[k] / 4.0 - high[k] / 4.0) / scale) as f32
-    };
-    positions.iter().map(|p| Vec3::from_fn(|k, _| coordinate(p, k))).collect()
+    let coordinate =
+        |p: &[f64; 3], k: usize| ((p[k] / 2.0 - low[k] / 4.0 - high[k] / 4.0) / scale) as f32;
+    positions
+        .iter()
+        .map(|p| Vec3::from_fn(|k, _| coordinate(p, k)))
+        .collect()
 }
 
 /// The mean normal of the triangles round each vertex, in the axes of the view.
@@ -160,16 +171,27 @@ impl Surface<'_> {
 
     fn lit(&self, face: usize, x: usize, y: usize) -> Vec3 {
         let triangle = &self.triangles[face];
-        let flat = self.view.turn(&direction(&area_normal(self.points, triangle)));
+        let flat = self
+            .view
+            .turn(&direction(&area_normal(self.points, triangle)));
         let corners = triangle.map(|v| self.places[v as usize]);
         let weights = barycentric(&corners, x, y).unwrap_or([1.0 / 3.0; 3]);
         let mut normal = Vec3::zeros();
         for (&v, weight) in triangle.iter().zip(weights) {
             let smooth = self.normals[v as usize];
-            normal += weight * if smooth.dot(&flat) > SMOOTH_COSINE { smooth } else { flat };
+            normal += weight
+                * if smooth.dot(&flat) > SMOOTH_COSINE {
+                    smooth
+                } else {
+                    flat
+                };
         }
         let is_outside = flat.z >= 0.0;
-        let normal = if is_outside { direction(&normal) } else { -direction(&normal) };
+        let normal = if is_outside {
+            direction(&normal)
+        } else {
+            -direction(&normal)
+        };
         let color = match (face >= self.first_new, is_outside) {
             (false, true) => MESH,
             (false, false) => MESH_INSIDE,
@@ -190,13 +212,18 @@ impl Surface<'_> {
 fn hollow(canvas: &Canvas, x: usize, y: usize) -> f32 {
     let here = canvas.depth(x as isize, y as isize);
     let rise = |dx: f32, dy: f32| {
-        let there = canvas.depth(x as isize + dx.round() as isize, y as isize + dy.round() as isize);
+        let there = canvas.depth(
+            x as isize + dx.round() as isize,
+            y as isize + dy.round() as isize,
+        );
         (here - there).clamp(-HOLLOW_RADIUS, HOLLOW_RADIUS)
     };
+    // The samples of a pixel look in different directions, which together leave no bands.
+    let first = (x % SAMPLES + SAMPLES * (y % SAMPLES)) as f32 / (SAMPLES * SAMPLES) as f32;
     let mut sum = 0.0;
     for k in 0..HOLLOW_PAIRS {
-        let share = (k + 1) as f32 / HOLLOW_PAIRS as f32;
-        let (sin, cos) = (k as f32 * 2.4).sin_cos();
+        let share = (k as f32 + first + 0.25) / HOLLOW_PAIRS as f32;
+        let (sin, cos) = ((k as f32 + first) * GOLDEN_ANGLE).sin_cos();
         let radius = HOLLOW_RADIUS * share;
         let (dx, dy) = (radius * cos, radius * sin);
         sum += ((rise(dx, dy) + rise(-dx, -dy)) / (2.0 * radius)).clamp(0.0, 1.0);
@@ -207,7 +234,11 @@ fn hollow(canvas: &Canvas, x: usize, y: usize) -> f32 {
 /// The value that a screen shows as this brightness (sRGB).
 fn screen_value(linear: f32) -> f32 {
     let linear = linear.clamp(0.0, 1.0);
-    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+    if linear <= 0.003_130_8 {
+        12.92 * linear
+    } else {
+        1.055 * linear.powf(1.0 / 2.4) - 0.055
+    }
 }
 
 #[cfg(test)]
@@ -248,7 +279,12 @@ mod tests {
     fn a_mesh_without_triangles_or_extent_gives_an_empty_picture() {
         for triangles in [&[][..], &[[0, 0, 0]], &[[0, 1, 2]]] {
             let positions = [[3.0; 3]; 3];
-            let scene = Scene { positions: &positions, triangles, first_new: 0, patches: &[] };
+            let scene = Scene {
+                positions: &positions,
+                triangles,
+                first_new: 0,
+                patches: &[],
+            };
             let picture = draw(&scene);
             assert!((0..800).all(|k| !is_orange(&picture, 2 * k, k)));
         }
@@ -258,7 +294,9 @@ mod tests {
     fn the_png_has_the_size_of_the_picture() {
         let mut bytes = Vec::new();
         write_png(&draw_square(1.0, 0.0), &mut bytes).unwrap();
-        let reader = png::Decoder::new(io::Cursor::new(bytes)).read_info().unwrap();
+        let reader = png::Decoder::new(io::Cursor::new(bytes))
+            .read_info()
+            .unwrap();
         assert_eq!(reader.info().size(), (1600, 800));
     }
 }

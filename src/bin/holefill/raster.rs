@@ -16,7 +16,11 @@ pub(crate) struct Canvas {
 
 impl Canvas {
     pub(crate) fn new(size: usize) -> Self {
-        Self { size, depths: vec![f32::INFINITY; size * size], faces: vec![NOTHING; size * size] }
+        Self {
+            size,
+            depths: vec![f32::INFINITY; size * size],
+            faces: vec![NOTHING; size * size],
+        }
     }
 
     /// The nearest triangle of each sample, or [`NOTHING`], row by row.
@@ -54,7 +58,9 @@ impl Canvas {
         }
         for row in rows {
             for column in columns.clone() {
-                let Some(weights) = barycentric(&corners, column, row) else { continue };
+                let Some(weights) = barycentric(&corners, column, row) else {
+                    continue;
+                };
                 let depth: f32 = (0..3).map(|k| weights[k] * corners[k].z).sum();
                 let sample = row * self.size + column;
                 if depth < self.depths[sample] {
@@ -85,9 +91,14 @@ pub(crate) fn barycentric(
 ) -> Option<[f32; 3]> {
     let [a, b, c] = corners.map(|p| [f64::from(p.x), f64::from(p.y)]);
     let p = [column as f64 + 0.5, row as f64 + 0.5];
-    let twice_area =
-        |u: [f64; 2], v: [f64; 2], w: [f64; 2]| (v[0] - u[0]) * (w[1] - u[1]) - (v[1] - u[1]) * (w[0] - u[0]);
-    let parts = [twice_area(b, c, p), twice_area(c, a, p), twice_area(a, b, p)];
+    let twice_area = |u: [f64; 2], v: [f64; 2], w: [f64; 2]| {
+        (v[0] - u[0]) * (w[1] - u[1]) - (v[1] - u[1]) * (w[0] - u[0])
+    };
+    let parts = [
+        twice_area(b, c, p),
+        twice_area(c, a, p),
+        twice_area(a, b, p),
+    ];
     let total: f64 = parts.iter().sum();
     let is_inside = total != 0.0 && parts.iter().all(|part| part / total >= 0.0);
     is_inside.then(|| parts.map(|part| (part / total) as f32))
@@ -99,8 +110,13 @@ mod tests {
 
     #[test]
     fn two_triangles_cover_a_square_without_a_gap() {
-        let places = [[0.0, 0.0, 5.0], [8.0, 0.0, 5.0], [8.0, 8.0, 5.0], [0.0, 8.0, 5.0]]
-            .map(Vector3::from);
+        let places = [
+            [0.0, 0.0, 5.0],
+            [8.0, 0.0, 5.0],
+            [8.0, 8.0, 5.0],
+            [0.0, 8.0, 5.0],
+        ]
+        .map(Vector3::from);
         let mut canvas = Canvas::new(8);
         canvas.draw(&places, &[[0, 1, 2], [2, 3, 0]], 0..2);
         assert!(!canvas.faces().contains(&NOTHING));
@@ -130,8 +146,13 @@ mod tests {
 
     #[test]
     fn triangles_without_area_or_outside_draw_nothing() {
-        let places = [[1.0, 1.0, 0.0], [7.0, 7.0, 0.0], [-9.0, 2.0, 0.0], [-9.0, 30.0, 0.0]]
-            .map(Vector3::from);
+        let places = [
+            [1.0, 1.0, 0.0],
+            [7.0, 7.0, 0.0],
+            [-9.0, 2.0, 0.0],
+            [-9.0, 30.0, 0.0],
+        ]
+        .map(Vector3::from);
         let mut canvas = Canvas::new(8);
         canvas.draw(&places, &[[0, 1, 1], [0, 0, 0], [2, 3, 2], [2, 2, 3]], 0..4);
         assert!(canvas.faces().iter().all(|&f| f == NOTHING));

@@ -24,7 +24,8 @@ pub(crate) struct FillFacts {
 
 /// The report of `holefill fill --report`.
 pub(crate) fn fill(facts: &FillFacts, report: &FillReport) -> String {
-    let counts = |[vertices, triangles]: [usize; 2]| json!({"vertices": vertices, "triangles": triangles});
+    let counts =
+        |[vertices, triangles]: [usize; 2]| json!({"vertices": vertices, "triangles": triangles});
     pretty(&json!({
         "input": counts(facts.input),
         "output": counts(facts.output),

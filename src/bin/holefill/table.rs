@@ -15,13 +15,19 @@ struct Table {
 
 impl Table {
     fn new(headings: &[&str]) -> Self {
-        Self { rows: vec![headings.iter().map(|&h| h.to_owned()).collect()] }
+        Self {
+            rows: vec![headings.iter().map(|&h| h.to_owned()).collect()],
+        }
     }
 
     fn render(&self) -> String {
         let columns = self.rows[0].len();
         let width = |k: usize| {
-            self.rows.iter().map(|row| row[k].trim_start().chars().count()).max().unwrap_or(0)
+            self.rows
+                .iter()
+                .map(|row| row[k].trim_start().chars().count())
+                .max()
+                .unwrap_or(0)
         };
         let widths: Vec<usize> = (0..columns).map(width).collect();
         let mut text = String::new();
@@ -62,8 +68,15 @@ fn edge(edge: [u32; 2]) -> String {
 
 /// One row for each boundary loop.
 pub(crate) fn loops(loops: &[BoundaryLoop]) -> String {
-    let mut table =
-        Table::new(&[" LOOP", "CLASS", " EDGES", " PERIMETER", " AREA", " PLANARITY", "EDGE"]);
+    let mut table = Table::new(&[
+        " LOOP",
+        "CLASS",
+        " EDGES",
+        " PERIMETER",
+        " AREA",
+        " PLANARITY",
+        "EDGE",
+    ]);
     for l in loops {
         table.rows.push(vec![
             l.id.to_string(),
@@ -100,7 +113,9 @@ pub(crate) fn holes(report: &FillReport) -> String {
         "NOTE",
     ]);
     let shown = shown_holes(&report.holes);
-    table.rows.extend(shown.iter().map(|&i| hole_row(&report.holes[i])));
+    table
+        .rows
+        .extend(shown.iter().map(|&i| hole_row(&report.holes[i])));
     let mut text = table.render();
     if shown.len() < report.holes.len() {
         let hidden = report.holes.len() - shown.len();
@@ -116,7 +131,8 @@ fn hole_row(hole: &HoleReport) -> Vec<String> {
         hole.edges.to_string(),
         number(hole.perimeter),
         hole.status.name().to_owned(),
-        hole.method.map_or_else(|| "-".to_owned(), |m| m.to_string()),
+        hole.method
+            .map_or_else(|| "-".to_owned(), |m| m.to_string()),
         hole.new_vertices.len().to_string(),
         hole.new_triangles.len().to_string(),
         hole.reason.clone(),
@@ -131,10 +147,17 @@ fn shown_holes(holes: &[HoleReport]) -> Vec<usize> {
     }
     let failed = |h: &HoleReport| matches!(h.status, HoleStatus::Failed | HoleStatus::Cancelled);
     let mut by_perimeter: Vec<usize> = (0..holes.len()).collect();
-    by_perimeter.sort_by(|&i, &j| holes[j].perimeter.total_cmp(&holes[i].perimeter).then(i.cmp(&j)));
+    by_perimeter.sort_by(|&i, &j| {
+        holes[j]
+            .perimeter
+            .total_cmp(&holes[i].perimeter)
+            .then(i.cmp(&j))
+    });
     by_perimeter.truncate(LARGEST_ROWS);
-    let mut shown: Vec<usize> =
-        (0..holes.len()).filter(|&i| failed(&holes[i])).take(ALL_ROWS).collect();
+    let mut shown: Vec<usize> = (0..holes.len())
+        .filter(|&i| failed(&holes[i]))
+        .take(ALL_ROWS)
+        .collect();
     shown.extend(by_perimeter);
     shown.sort_unstable();
     shown.dedup();
@@ -144,8 +167,12 @@ fn shown_holes(holes: &[HoleReport]) -> Vec<usize> {
 /// The count of holes by how they ended, such as `635 holes: 633 filled, 2 failed`.
 pub(crate) fn summary(report: &FillReport) -> String {
     let total = report.holes.len();
-    let statuses =
-        [HoleStatus::Filled, HoleStatus::Kept, HoleStatus::Failed, HoleStatus::Cancelled];
+    let statuses = [
+        HoleStatus::Filled,
+        HoleStatus::Kept,
+        HoleStatus::Failed,
+        HoleStatus::Cancelled,
+    ];
     let counts: Vec<String> = statuses
         .into_iter()
         .map(|status| (status, report.count(status)))
@@ -197,18 +224,27 @@ mod tests {
 
     #[test]
     fn a_long_report_shows_failed_and_largest_holes_and_counts_all() {
-        let mut all: Vec<HoleReport> =
-            (0..635).map(|i| hole(i, HoleStatus::Filled, 1.0 + i as f64)).collect();
+        let mut all: Vec<HoleReport> = (0..635)
+            .map(|i| hole(i, HoleStatus::Filled, 1.0 + i as f64))
+            .collect();
         all[7].status = HoleStatus::Failed;
         all[9].status = HoleStatus::Failed;
         assert_eq!(shown_holes(&all), [7, 9, 630, 631, 632, 633, 634]);
-        let text = holes(&FillReport { holes: all, ..FillReport::default() });
-        assert!(text.ends_with("... and 628 more\n635 holes: 633 filled, 2 failed\n"), "{text}");
+        let text = holes(&FillReport {
+            holes: all,
+            ..FillReport::default()
+        });
+        assert!(
+            text.ends_with("... and 628 more\n635 holes: 633 filled, 2 failed\n"),
+            "{text}"
+        );
     }
 
     #[test]
     fn many_failures_do_not_flood_the_terminal() {
-        let all: Vec<HoleReport> = (0..5000).map(|i| hole(i, HoleStatus::Failed, 1.0)).collect();
+        let all: Vec<HoleReport> = (0..5000)
+            .map(|i| hole(i, HoleStatus::Failed, 1.0))
+            .collect();
         assert_eq!(shown_holes(&all).len(), ALL_ROWS);
     }
 

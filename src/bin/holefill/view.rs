@@ -32,19 +32,34 @@ impl View {
     /// Looks at the origin from the direction `from`, y up.
     pub(crate) fn new(from: Vec3) -> Self {
         let towards = from.try_normalize(0.0).unwrap_or_else(Vec3::z);
-        let up = if towards.y.abs() < 0.99 { Vec3::y() } else { Vec3::z() };
+        let up = if towards.y.abs() < 0.99 {
+            Vec3::y()
+        } else {
+            Vec3::z()
+        };
         let right = up.cross(&towards).normalize();
-        Self { axes: [right, towards.cross(&right), towards] }
+        Self {
+            axes: [right, towards.cross(&right), towards],
+        }
     }
 
     /// The components of a direction to the right, up, and towards the eye.
     pub(crate) fn turn(&self, v: &Vec3) -> Vec3 {
-        Vec3::new(self.axes[0].dot(v), self.axes[1].dot(v), self.axes[2].dot(v))
+        Vec3::new(
+            self.axes[0].dot(v),
+            self.axes[1].dot(v),
+            self.axes[2].dot(v),
+        )
     }
 
     /// Projects `points` to a picture of `size` x `size` samples, y down, z growing away from the eye
     /// (also in samples). The points that `triangles` name fill the picture.
-    pub(crate) fn project(&self, points: &[Vec3], triangles: &[[u32; 3]], size: usize) -> Vec<Vec3> {
+    pub(crate) fn project(
+        &self,
+        points: &[Vec3],
+        triangles: &[[u32; 3]],
+        size: usize,
+    ) -> Vec<Vec3> {
         let mut places: Vec<Vec3> = points.iter().map(|p| self.turn(p)).collect();
         let (mut low, mut high) = (Vec3::repeat(f32::MAX), Vec3::repeat(f32::MIN));
         for &v in triangles.iter().flatten() {
@@ -70,9 +85,14 @@ pub(crate) fn choose(
     first_new: usize,
     patches: &[Range<u32>],
 ) -> View {
-    let stride = (triangles.len() - first_new).div_ceil(CHOICE_TRIANGLES).max(1);
-    let normals: Vec<Vec3> =
-        triangles[first_new..].iter().step_by(stride).map(|t| area_normal(points, t)).collect();
+    let stride = (triangles.len() - first_new)
+        .div_ceil(CHOICE_TRIANGLES)
+        .max(1);
+    let normals: Vec<Vec3> = triangles[first_new..]
+        .iter()
+        .step_by(stride)
+        .map(|t| area_normal(points, t))
+        .collect();
     let shown = |d: &Vec3| -> f32 { normals.iter().map(|n| n.dot(d).max(0.0)).sum() };
 
     let mut candidates: Vec<(f32, Vec3)> = (0..DIRECTIONS)
@@ -91,7 +111,10 @@ pub(crate) fn choose(
         let mut canvas = Canvas::new(TRIAL_SIZE);
         canvas.draw(&places, triangles, 0..triangles.len());
         let is_front = |f: usize| area_normal(points, &triangles[f]).dot(&d) > 0.0;
-        let visible = canvas.faces().iter().filter(|&&f| f != NOTHING && f as usize >= first_new);
+        let visible = canvas
+            .faces()
+            .iter()
+            .filter(|&&f| f != NOTHING && f as usize >= first_new);
         let count = visible.filter(|&&f| is_front(f as usize)).count();
         let score = count as f32 * (1.0 - STEEP_VIEW_MALUS * d.y.abs());
         if score > best.0 {
@@ -117,11 +140,17 @@ fn largest_patch_normals(
         .map(|patch| {
             let faces = &triangles[patch.start as usize..patch.end as usize];
             let normals = faces.iter().map(|t| area_normal(points, t));
-            normals.fold((0.0, Vec3::zeros()), |(area, sum), n| (area + n.norm(), sum + n))
+            normals.fold((0.0, Vec3::zeros()), |(area, sum), n| {
+                (area + n.norm(), sum + n)
+            })
         })
         .collect();
     normals.sort_by(|a, b| b.0.total_cmp(&a.0));
-    normals.iter().take(LARGEST_PATCHES).filter_map(|n| n.1.try_normalize(0.0)).collect()
+    normals
+        .iter()
+        .take(LARGEST_PATCHES)
+        .filter_map(|n| n.1.try_normalize(0.0))
+        .collect()
 }
 
 /// Point `i` of [`DIRECTIONS`] spread evenly over the sphere.
@@ -150,7 +179,12 @@ mod tests {
         ]
         .map(Vec3::from);
         for (patch, sign) in [([0, 1, 2], 1.0), ([0, 2, 1], -1.0)] {
-            let view = choose(&points, &[[3, 4, 5], patch], 1, std::slice::from_ref(&(1..2)));
+            let view = choose(
+                &points,
+                &[[3, 4, 5], patch],
+                1,
+                std::slice::from_ref(&(1..2)),
+            );
             // From behind, the patch can only be seen past the wall.
             assert!(view.axes[2].z * sign > 0.0, "{sign}");
         }
@@ -160,7 +194,11 @@ mod tests {
     fn without_a_patch_and_without_extent_there_is_still_a_view() {
         let points = [Vec3::zeros(); 3];
         let view = choose(&points, &[[0, 1, 2]], 1, &[]);
-        assert!(view.project(&points, &[[0, 1, 2]], 10).iter().all(|p| p.norm().is_finite()));
+        assert!(
+            view.project(&points, &[[0, 1, 2]], 10)
+                .iter()
+                .all(|p| p.norm().is_finite())
+        );
         assert!(view.project(&[], &[], 10).is_empty());
     }
 }

@@ -52,23 +52,39 @@ pub(crate) struct FillArgs {
     #[arg(long = "loop", value_name = "V0,V1", value_parser = parse_edge)]
     pub(crate) only: Vec<[u32; 2]>,
     /// Leave loops with more than N edges open [default: no limit]
-    #[arg(long, value_name = "N")]
+    #[arg(long, allow_negative_numbers = true, value_name = "N")]
     pub(crate) max_edges: Option<usize>,
     /// Leave loops longer than L open, in units of the file [default: no limit]
-    #[arg(long, value_name = "L")]
+    #[arg(long, allow_negative_numbers = true, value_name = "L")]
     pub(crate) max_perimeter: Option<f64>,
     /// Leave the N loops of the largest perimeter open
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        value_name = "N",
+        default_value_t = 0
+    )]
     pub(crate) keep_largest: usize,
     /// Set a parameter; can be repeated; the parameters are listed below
     #[arg(long, value_name = "KEY=VALUE", value_parser = parse_setting)]
     pub(crate) set: Vec<(String, String)>,
     /// Seed of the methods that use random numbers
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        value_name = "N",
+        default_value_t = 0
+    )]
     pub(crate) seed: u64,
     /// Threads to fill with, 0 for as many as there are processors;
     /// the result does not depend on it
-    #[arg(long, verbatim_doc_comment, value_name = "N", default_value_t = 0)]
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        verbatim_doc_comment,
+        value_name = "N",
+        default_value_t = 0
+    )]
     pub(crate) threads: usize,
     /// Also write what happened to each hole, as JSON (seconds, degrees)
     #[arg(long, value_name = "FILE.json")]

@@ -12,6 +12,7 @@ mod destination;
 mod fill;
 mod input;
 mod inspect;
+mod model;
 mod preview;
 mod raster;
 mod report;

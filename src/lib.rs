@@ -1,10 +1,48 @@
-//! Fills holes in triangle meshes.
+//! Fills holes in triangle meshes, loop by loop, without touching the rest of the mesh.
+//!
+//! ```
+//! use holefill::{BoundaryLoops, FillOptions, HoleStatus, Selection, TriMesh, fill_holes};
+//!
+//! // A tetrahedron without its bottom.
+//! let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+//! let triangles = vec![[0, 1, 3], [1, 2, 3], [2, 0, 3]];
+//! let mut mesh = TriMesh::new(positions, triangles)?;
+//!
+//! let boundary = BoundaryLoops::find(&mesh);
+//! assert_eq!(boundary.loops.len(), 1);
+//!
+//! let report =
+//!     fill_holes(&mut mesh, &boundary, &Selection::default(), &FillOptions::default(), None)?;
+//! assert_eq!(report.count(HoleStatus::Filled), 1);
+//! assert_eq!(mesh.triangles().last(), Some(&[0, 2, 1]));
+//! # Ok::<(), holefill::Error>(())
+//! ```
 #![deny(rustdoc::broken_intra_doc_links)]
-#![allow(dead_code)] // until the pipeline uses every module
+#![allow(dead_code)]
 
+mod boundary;
 mod error;
+mod fair;
+mod fill;
+pub mod io;
 mod math;
+mod mesh;
 mod patch;
 mod quality;
+mod refine;
+mod triangulate;
 
+pub use boundary::classify::LoopClass;
+pub use boundary::loops::{BoundaryLoop, BoundaryLoops};
+pub use boundary::select::Selection;
 pub use error::{Error, ErrorKind, Result};
+pub use fill::method::Method;
+pub use fill::options::{FillOptions, Parameter};
+pub use fill::pipeline::fill_holes;
+pub use fill::progress::{Progress, ProgressCallback};
+pub use fill::report::{Attempt, FillReport, HoleReport, HoleStatus};
+pub use mesh::attributes::{
+    Attribute, AttributeValues, Attributes, ListValues, ScalarType, ScalarValues,
+};
+pub use mesh::defects::{Defect, MeshDefects};
+pub use mesh::trimesh::TriMesh;

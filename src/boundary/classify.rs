@@ -66,10 +66,13 @@ pub(super) fn classify(mesh: &TriMesh, loops: &mut [BoundaryLoop]) {
             l.class = LoopClass::OuterRim;
         }
     }
-    let islands: Vec<usize> =
-        (0..loops.len()).filter(|&i| host_of_island(mesh, loops, i).is_some()).collect();
-    for i in islands {
-        loops[i].class = LoopClass::Island;
+    let hosts: Vec<Option<usize>> =
+        (0..loops.len()).map(|i| host_of_island(mesh, loops, i)).collect();
+    for (l, host) in loops.iter_mut().zip(hosts) {
+        if host.is_some() {
+            l.class = LoopClass::Island;
+            l.host = host;
+        }
     }
 }
 
@@ -110,7 +113,7 @@ fn outer_rim_alignment(mesh: &TriMesh, l: &BoundaryLoop) -> f64 {
 ///
 /// The candidate must bound a small sheet with no other boundary, and lie inside the bounding box of
 /// exactly such a hole; among several the one with the shortest perimeter is meant.
-pub(crate) fn host_of_island(
+fn host_of_island(
     mesh: &TriMesh,
     loops: &[BoundaryLoop],
     candidate: usize,

@@ -31,6 +31,8 @@ pub struct BoundaryLoop {
     pub class: LoopClass,
     /// Boundary halfedges, edge by edge.
     pub(crate) halfedges: Vec<u32>,
+    /// For an island the loop whose hole it lies in.
+    pub(crate) host: Option<usize>,
     /// Corners of the bounding box.
     pub(crate) low: Vec3,
     pub(crate) high: Vec3,
@@ -219,6 +221,7 @@ fn measure(mesh: &TriMesh, id: usize, chain: &Chain) -> BoundaryLoop {
         },
         vertices,
         halfedges,
+        host: None,
         low,
         high,
     }

@@ -13,7 +13,8 @@
 //!   with the surroundings' tangent planes;
 //! * order 3: `gᵀ L g` with `g = M⁻¹ L x` over the interior, rim and ring 1 vertices, for their curvature.
 //!
-//! Vertices whose triangles do not close (on another boundary, say) contribute no energy.
+//! In `L` as a quadratic form, negative weights count as zero: the form stays definite where the triangles
+//! could not be made Delaunay. Vertices whose triangles do not close (on another boundary, say) contribute no energy.
 //!
 //! Not guaranteed: that the result has no self-intersection, nor that it stays near the rim.
 
@@ -53,14 +54,31 @@ pub(crate) fn fair(
         return Ok(());
     }
     let domain = Domain::new(surface, surroundings, order as u32 - 1, weights);
-    let operator = Operator::new(&domain, order);
-    let (matrix, right_side) = operator.normal_equations();
+    let (matrix, right_side) = match order {
+        Order::One => membrane_equations(&domain, &domain.points[..domain.rim_count]),
+        _ => Operator::new(&domain, order).normal_equations(),
+    };
     let solution = solver.solve(matrix, &right_side)?;
     surface.points[surface.rim_count..].copy_from_slice(&solution);
     Ok(())
 }
 
-/// The energy as a quadratic form, applied to sparse vectors.
+/// Extends values given at the rim to the interior vertices, three at a time, by the harmonic function of
+/// uniform weights: each interior value is the mean of its neighbours', so none leaves the rim's range.
+///
+/// # Errors
+/// [`crate::ErrorKind::Solver`] when the system cannot be solved.
+pub(crate) fn extend_from_rim(
+    surface: &PatchSurface,
+    rim_values: &[Vec3],
+    solver: &mut SpdSolver,
+) -> Result<Vec<Vec3>> {
+    let domain = Domain::new(surface, &Surroundings::default(), 0, Weights::Uniform);
+    let (matrix, right_side) = membrane_equations(&domain, rim_values);
+    solver.solve(matrix, &right_side)
+}
+
+/// The energy of order two or three as a quadratic form, applied to sparse vectors.
 struct Operator<'a> {
     domain: &'a Domain,
     order: Order,
@@ -96,8 +114,9 @@ impl<'a> Operator<'a> {
         let mut diagonal = 0.0;
         for e in self.domain.row(vertex) {
             if self.is_summed[e.column as usize] {
-                diagonal += e.weight;
-                out.add(e.column, -factor * e.weight);
+                let weight = e.weight.max(0.0);
+                diagonal += weight;
+                out.add(e.column, -factor * weight);
             }
         }
         out.add(vertex as u32, factor * diagonal);
@@ -124,9 +143,6 @@ impl<'a> Operator<'a> {
 
     /// Matrix and right-hand side over the interior vertices.
     fn normal_equations(&self) -> (SymmetricMatrix, Vec<Vec3>) {
-        if self.order == Order::One {
-            return self.membrane_equations();
-        }
         let domain = self.domain;
         let mut fixed = vec![Vec3::zeros(); domain.vertex_count()];
         for v in self.fixed_vertices() {
@@ -183,31 +199,32 @@ impl<'a> Operator<'a> {
         let domain = self.domain;
         (0..domain.rim_count).chain(domain.patch_count..domain.vertex_count())
     }
+}
 
-    fn membrane_equations(&self) -> (SymmetricMatrix, Vec<Vec3>) {
-        let domain = self.domain;
-        let mut matrix = SymmetricMatrix { column_starts: vec![0], ..SymmetricMatrix::default() };
-        let mut right_side = Vec::with_capacity(domain.patch_count - domain.rim_count);
-        for v in domain.rim_count..domain.patch_count {
-            let diagonal_at = matrix.values.len();
-            matrix.rows.push((v - domain.rim_count) as u32);
-            matrix.values.push(0.0);
-            let mut sum = Vec3::zeros();
-            for e in domain.row(v) {
-                matrix.values[diagonal_at] += e.weight;
-                let u = e.column as usize;
-                if u < domain.rim_count {
-                    sum += e.weight * domain.points[u];
-                } else if u > v {
-                    matrix.rows.push((u - domain.rim_count) as u32);
-                    matrix.values.push(-e.weight);
-                }
+/// Matrix and right-hand side of the membrane over the interior vertices.
+fn membrane_equations(domain: &Domain, rim_values: &[Vec3]) -> (SymmetricMatrix, Vec<Vec3>) {
+    let mut matrix = SymmetricMatrix { column_starts: vec![0], ..SymmetricMatrix::default() };
+    let mut right_side = Vec::with_capacity(domain.patch_count - domain.rim_count);
+    for v in domain.rim_count..domain.patch_count {
+        let diagonal_at = matrix.values.len();
+        matrix.rows.push((v - domain.rim_count) as u32);
+        matrix.values.push(0.0);
+        let mut sum = Vec3::zeros();
+        for e in domain.row(v) {
+            let weight = e.weight.max(0.0);
+            matrix.values[diagonal_at] += weight;
+            let u = e.column as usize;
+            if u < domain.rim_count {
+                sum += weight * rim_values[u];
+            } else if u > v {
+                matrix.rows.push((u - domain.rim_count) as u32);
+                matrix.values.push(-weight);
             }
-            right_side.push(sum);
-            matrix.column_starts.push(matrix.rows.len() as u32);
         }
-        (matrix, right_side)
+        right_side.push(sum);
+        matrix.column_starts.push(matrix.rows.len() as u32);
     }
+    (matrix, right_side)
 }
 
 struct Scratch {

@@ -2,7 +2,8 @@
 
 use super::connectivity::{DEGENERATE, next, origin, previous};
 use super::trimesh::TriMesh;
-use std::collections::BTreeMap;
+use std::collections::btree_map::{BTreeMap, Entry};
+use std::collections::BTreeSet;
 
 /// How a walk round a vertex came to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,15 +58,14 @@ pub(crate) struct Rings {
 pub(crate) fn collect_rings(mesh: &TriMesh, rim_halfedges: &[u32], count: u32) -> Rings {
     let triangles = mesh.triangles();
     let mut rings = Rings::default();
-    let mut seen_faces = std::collections::BTreeSet::new();
+    let mut seen_faces = BTreeSet::new();
     // A vertex with the halfedge through which it was met, so that the walk stays on its sheet.
     let mut frontier: Vec<(u32, u32)> = Vec::new();
     for &h in rim_halfedges {
+        // Each rim vertex is the head of one rim halfedge.
         let head = origin(triangles, next(h));
-        for vertex in [origin(triangles, h), head] {
-            rings.levels.insert(vertex, 0);
-            frontier.push((vertex, h));
-        }
+        rings.levels.insert(head, 0);
+        frontier.push((head, h));
     }
     for ring in 0..count {
         let mut next_frontier = Vec::new();
@@ -78,8 +78,7 @@ pub(crate) fn collect_rings(mesh: &TriMesh, rim_halfedges: &[u32], count: u32) -
                 for k in 0..3 {
                     let h = 3 * face + k;
                     let v = origin(triangles, h);
-                    if let std::collections::btree_map::Entry::Vacant(slot) = rings.levels.entry(v)
-                    {
+                    if let Entry::Vacant(slot) = rings.levels.entry(v) {
                         slot.insert(ring + 1);
                         next_frontier.push((v, h));
                     }

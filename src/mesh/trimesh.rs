@@ -102,6 +102,11 @@ impl TriMesh {
         &self.connectivity
     }
 
+    /// The positions as vectors.
+    pub(crate) fn points(&self) -> &[Vec3] {
+        bytemuck::cast_slice(&self.positions)
+    }
+
     pub(crate) fn point(&self, vertex: u32) -> Vec3 {
         Vec3::from(self.positions[vertex as usize])
     }
@@ -117,15 +122,16 @@ impl TriMesh {
         &mut self,
         points: &[[f64; 3]],
         triangles: &[[u32; 3]],
-        extend_attributes: impl FnOnce(&mut Attributes, &mut Attributes),
-    ) {
+        extend_attributes: impl FnOnce(&mut Attributes, &mut Attributes) -> Result<()>,
+    ) -> Result<()> {
+        extend_attributes(&mut self.vertex_attributes, &mut self.face_attributes)?;
         let first_face = self.triangles.len();
         self.positions.extend_from_slice(points);
         self.triangles.extend_from_slice(triangles);
-        extend_attributes(&mut self.vertex_attributes, &mut self.face_attributes);
         debug_assert_eq!(self.vertex_attributes.len(), self.positions.len());
         debug_assert_eq!(self.face_attributes.len(), self.triangles.len());
         self.connectivity.append(&self.triangles, first_face);
+        Ok(())
     }
 }
 

@@ -1,0 +1,223 @@
+//! One hole cut out of the mesh: its rim, the polygon to triangulate, and the triangles round it.
+
+use crate::boundary::loops::BoundaryLoop;
+use crate::error::{Error, ErrorKind, Result};
+use crate::fair::laplacian::Surroundings;
+use crate::math::{Vec3, cross_normal, unit};
+use crate::mesh::connectivity::{origin, target};
+use crate::mesh::rings::collect_rings;
+use crate::mesh::trimesh::TriMesh;
+use std::collections::BTreeMap;
+
+/// Rings of triangles that the methods read round a hole.
+const RINGS: u32 = 2;
+
+/// A hole in coordinates of its own: the origin is the centroid of the rim, the unit is the mean length of
+/// the rim's edges, so that neither the position nor the scale of the model enters the computation.
+pub(crate) struct Hole {
+    /// Rim vertices in the mesh; rim vertex `i` of a patch is `rim[i]`.
+    pub(crate) rim: Vec<u32>,
+    /// The closed polygon that bounds the patch, in the patch's orientation, as indices into `rim`. With
+    /// islands some rim vertices occur in it twice.
+    pub(crate) polygon: Vec<u32>,
+    /// Unit normal of the known triangle at each polygon edge; `None` along the bridges to islands.
+    pub(crate) outside_normals: Vec<Option<Vec3>>,
+    /// Triangle of the mesh at each polygon edge.
+    pub(crate) outside_faces: Vec<Option<u32>>,
+    /// Rim positions in the hole's coordinates.
+    pub(crate) points: Vec<Vec3>,
+    /// Mean length of the known edges at each rim vertex, in the hole's coordinates.
+    pub(crate) edge_lengths: Vec<f64>,
+    /// The known triangles round the rim.
+    pub(crate) surroundings: Surroundings,
+    /// Sorted pairs of rim vertices that an edge of the mesh already joins.
+    joined: Vec<(u32, u32)>,
+    center: Vec3,
+    scale: f64,
+}
+
+impl Hole {
+    /// Cuts out the hole that `outer` bounds, together with the loose sheets that `islands` bound.
+    ///
+    /// # Errors
+    /// [`ErrorKind::InvalidInput`] for fewer than three edges, [`ErrorKind::Geometry`] when all vertices of
+    /// the rim coincide.
+    pub(crate) fn new(
+        mesh: &TriMesh,
+        outer: &BoundaryLoop,
+        islands: &[&BoundaryLoop],
+    ) -> Result<Self> {
+        if outer.edge_count() < 3 {
+            return Err(Error::new(
+                ErrorKind::InvalidInput,
+                format!("a loop of {} edges encloses no area", outer.edge_count()),
+            ));
+        }
+        let mut polygon = Polygon::of_loop(outer);
+        for island in islands {
+            polygon.join(mesh, Polygon::of_loop(island));
+        }
+        let mut rim = polygon.vertices.clone();
+        if !islands.is_empty() {
+            let mut seen = std::collections::BTreeSet::new();
+            rim.retain(|&v| seen.insert(v));
+        }
+        let mut local_of: BTreeMap<u32, u32> =
+            rim.iter().enumerate().map(|(i, &v)| (v, i as u32)).collect();
+        let polygon_indices: Vec<u32> = polygon.vertices.iter().map(|v| local_of[v]).collect();
+
+        let count = rim.len() as f64;
+        let center = rim.iter().map(|&v| mesh.point(v)).sum::<Vec3>() / count;
+        let scale = (outer.perimeter + islands.iter().map(|l| l.perimeter).sum::<f64>()) / count;
+        if !(scale > 0.0 && scale.is_finite()) {
+            return Err(Error::new(
+                ErrorKind::Geometry,
+                format!("the {} vertices of the rim coincide at one point", rim.len()),
+            ));
+        }
+        let to_local = |v: u32| (mesh.point(v) - center) / scale;
+        let outside_faces: Vec<Option<u32>> =
+            polygon.halfedges.iter().map(|h| h.map(|h| h / 3)).collect();
+        let outside_normals = outside_faces
+            .iter()
+            .map(|face| {
+                let [a, b, c] = mesh.triangles()[(*face)? as usize].map(to_local);
+                let normal = unit(cross_normal(&a, &b, &c));
+                (normal != Vec3::zeros()).then_some(normal)
+            })
+            .collect();
+
+        let rim_halfedges: Vec<u32> =
+            [outer].iter().chain(islands).flat_map(|l| l.halfedges.iter().copied()).collect();
+        let rings = collect_rings(mesh, &rim_halfedges, RINGS);
+        let mut surroundings = Surroundings::default();
+        for (&v, &level) in rings.levels.iter().filter(|&(_, &level)| level > 0) {
+            local_of.insert(v, (rim.len() + surroundings.points.len()) as u32);
+            surroundings.points.push(to_local(v));
+            surroundings.levels.push(level);
+        }
+        surroundings.triangles = rings
+            .faces
+            .iter()
+            .map(|&(f, _)| mesh.triangles()[f as usize].map(|v| local_of[&v]))
+            .collect();
+        let points: Vec<Vec3> = rim.iter().map(|&v| to_local(v)).collect();
+        let edge_lengths = mean_edge_lengths(&points, &surroundings);
+        let joined = joined_rim_vertices(mesh, &rim, &local_of);
+        Ok(Self {
+            rim,
+            polygon: polygon_indices,
+            outside_normals,
+            outside_faces,
+            points,
+            edge_lengths,
+            surroundings,
+            joined,
+            center,
+            scale,
+        })
+    }
+
+    /// Whether an edge of the mesh already joins two rim vertices.
+    pub(crate) fn is_joined(&self, a: u32, b: u32) -> bool {
+        self.joined.binary_search(&(a.min(b), a.max(b))).is_ok()
+    }
+
+    /// The position in the mesh of a point in the hole's coordinates.
+    pub(crate) fn to_mesh(&self, p: &Vec3) -> [f64; 3] {
+        (p * self.scale + self.center).into()
+    }
+}
+
+/// Vertices of the mesh in the patch's orientation, with the boundary halfedge along each edge.
+struct Polygon {
+    vertices: Vec<u32>,
+    halfedges: Vec<Option<u32>>,
+}
+
+impl Polygon {
+    /// The loop run backwards: the triangles of the patch lie on the other side of it.
+    fn of_loop(l: &BoundaryLoop) -> Self {
+        let n = l.vertices.len();
+        let vertices = (0..n).map(|i| l.vertices[(n - i) % n]).collect();
+        let halfedges = (0..n).map(|i| Some(l.halfedges[n - 1 - i])).collect();
+        Self { vertices, halfedges }
+    }
+
+    /// Joins `inner` along a bridge between the two vertices that are closest to each other; where the
+    /// polygons share a vertex there is no bridge.
+    fn join(&mut self, mesh: &TriMesh, mut inner: Self) {
+        let (mut at, mut inner_at, mut shortest) = (0, 0, f64::INFINITY);
+        for (i, &v) in self.vertices.iter().enumerate() {
+            let p = mesh.point(v);
+            for (j, &w) in inner.vertices.iter().enumerate() {
+                let distance = if v == w { -1.0 } else { (mesh.point(w) - p).norm_squared() };
+                if distance < shortest {
+                    (at, inner_at, shortest) = (i, j, distance);
+                }
+            }
+        }
+        inner.vertices.rotate_left(inner_at);
+        inner.halfedges.rotate_left(inner_at);
+        let is_shared = self.vertices[at] == inner.vertices[0];
+        let (tail, tail_halfedges) = (self.vertices.split_off(at), self.halfedges.split_off(at));
+        if is_shared {
+            // ... at | inner | at ...: the shared vertex begins both parts.
+            self.vertices.append(&mut inner.vertices);
+            self.halfedges.append(&mut inner.halfedges);
+        } else {
+            // ... at -> inner .. inner start -> at ...: the bridge is passed both ways.
+            let start = inner.vertices[0];
+            self.vertices.push(tail[0]);
+            self.halfedges.push(None);
+            self.vertices.append(&mut inner.vertices);
+            self.vertices.push(start);
+            self.halfedges.append(&mut inner.halfedges);
+            self.halfedges.push(None);
+        }
+        self.vertices.extend(tail);
+        self.halfedges.extend(tail_halfedges);
+    }
+}
+
+fn mean_edge_lengths(rim: &[Vec3], surroundings: &Surroundings) -> Vec<f64> {
+    let point = |v: u32| {
+        let v = v as usize;
+        if v < rim.len() { rim[v] } else { surroundings.points[v - rim.len()] }
+    };
+    let mut sums = vec![(0.0, 0.0); rim.len()];
+    for t in &surroundings.triangles {
+        for k in 0..3 {
+            let (a, b) = (t[k], t[(k + 1) % 3]);
+            let length = (point(b) - point(a)).norm();
+            for v in [a, b] {
+                if let Some((sum, count)) = sums.get_mut(v as usize) {
+                    *sum += length;
+                    *count += 1.0;
+                }
+            }
+        }
+    }
+    sums.iter().map(|&(sum, count)| if count > 0.0 { sum / count } else { 1.0 }).collect()
+}
+
+fn joined_rim_vertices(
+    mesh: &TriMesh,
+    rim: &[u32],
+    local_of: &BTreeMap<u32, u32>,
+) -> Vec<(u32, u32)> {
+    let mut joined = Vec::new();
+    for (i, &v) in rim.iter().enumerate() {
+        for o in mesh.connectivity().outgoing(v) {
+            debug_assert_eq!(origin(mesh.triangles(), o.halfedge), v);
+            let other = target(mesh.triangles(), o.halfedge);
+            if let Some(&j) = local_of.get(&other).filter(|&&j| (j as usize) < rim.len()) {
+                let i = i as u32;
+                joined.push((i.min(j), i.max(j)));
+            }
+        }
+    }
+    joined.sort_unstable();
+    joined.dedup();
+    joined
+}

@@ -1,0 +1,13 @@
+//! Filling holes: options, planning, verification, stitching, report.
+
+mod carry;
+mod hole;
+pub(crate) mod method;
+pub(crate) mod options;
+pub(crate) mod pipeline;
+mod plan;
+pub(crate) mod progress;
+pub(crate) mod report;
+mod staircase;
+mod stitch;
+mod verify;

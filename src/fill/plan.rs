@@ -1,0 +1,183 @@
+//! Finds the patch for one hole without touching the mesh: methods in turn until one gives a patch that
+//! passes every check.
+
+use super::carry::{CarriedAttributes, carry};
+use super::hole::Hole;
+use super::method::Method;
+use super::options::FillOptions;
+use super::report::Attempt;
+use super::staircase::Staircase;
+use super::verify::check_patch;
+use crate::boundary::loops::BoundaryLoop;
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::Vec3;
+use crate::mesh::trimesh::TriMesh;
+use crate::patch::PatchSurface;
+use crate::quality::Surface;
+use crate::quality::self_intersection::{AppendedPatch, Search, SelfIntersections, count};
+use crate::quality::shape::smallest_angle;
+use crate::quality::spatial::FaceIndex;
+
+/// A patch that may be stitched into the mesh.
+pub(crate) struct Plan {
+    pub(crate) hole: Hole,
+    pub(crate) method: Method,
+    pub(crate) tried: Vec<Attempt>,
+    /// New vertices in the mesh's coordinates.
+    pub(crate) points: Vec<Vec3>,
+    /// Indices below the rim count are rim vertices, the others new ones.
+    triangles: Vec<[u32; 3]>,
+    pub(crate) self_intersections: usize,
+    pub(crate) min_angle: f64,
+    pub(crate) attributes: CarriedAttributes,
+}
+
+impl Plan {
+    /// The triangles in the indices of a mesh with `vertex_count` vertices before the new ones.
+    pub(crate) fn triangles(&self, vertex_count: usize) -> Vec<[u32; 3]> {
+        global_triangles(&self.hole, &self.triangles, vertex_count)
+    }
+}
+
+/// Why there is no plan, and what was tried.
+pub(crate) struct Failure {
+    pub(crate) error: Error,
+    pub(crate) tried: Vec<Attempt>,
+}
+
+/// The methods to try, best first: the chosen one, then the simpler ones.
+pub(crate) fn chain(options: &FillOptions) -> Vec<Method> {
+    let staircase = [Method::FairC2, Method::FairC1, Method::Membrane, Method::Flat];
+    let first = match options.method {
+        Method::Auto => Method::FairC1,
+        method => method,
+    };
+    let last = if options.fallback { staircase.len() } else { 0 };
+    let later = staircase.iter().position(|&m| m == first).map_or(0, |i| i + 1);
+    [first].into_iter().chain(staircase[later.min(last)..last].iter().copied()).collect()
+}
+
+/// What planning needs besides the hole.
+pub(crate) struct Planner<'a> {
+    pub(crate) mesh: &'a TriMesh,
+    pub(crate) faces: &'a FaceIndex,
+    pub(crate) options: &'a FillOptions,
+    /// Asked from time to time; true stops the work.
+    pub(crate) interrupted: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Planner<'_> {
+    /// Finds a patch for the hole that `outer` bounds together with its `islands`, by the first of `methods`
+    /// whose patch passes every check and intersects nothing. If each one's intersects something, the one
+    /// with the fewest intersecting pairs is taken.
+    pub(crate) fn plan(
+        &self,
+        outer: &BoundaryLoop,
+        islands: &[&BoundaryLoop],
+        methods: &[Method],
+    ) -> std::result::Result<Plan, Failure> {
+        let mut tried = Vec::new();
+        let hole = match Hole::new(self.mesh, outer, islands) {
+            Ok(hole) => hole,
+            Err(error) => return Err(Failure { error, tried }),
+        };
+        let mut staircase = Staircase::new(&hole, self.options, self.interrupted);
+        let mut best: Option<(Candidate, usize)> = None;
+        let mut last_error = None;
+        for &method in methods {
+            let reason = match self.candidate(&hole, &mut staircase, method) {
+                Ok(candidate) => {
+                    let found = candidate.intersections.total();
+                    let is_better = best.as_ref().is_none_or(|(b, _)| found < b.intersections.total());
+                    if is_better {
+                        best = Some((candidate, tried.len()));
+                    }
+                    if found == 0 {
+                        break;
+                    }
+                    format!("its patch has {found} intersecting pairs of triangles")
+                }
+                Err(error) if error.kind() == ErrorKind::Cancelled => {
+                    return Err(Failure { error, tried });
+                }
+                Err(error) => {
+                    let reason = error.to_string();
+                    last_error = Some(error);
+                    reason
+                }
+            };
+            tried.push(Attempt { method, reason });
+        }
+        let Some((candidate, position)) = best else {
+            let error = last_error
+                .unwrap_or_else(|| Error::new(ErrorKind::InvalidInput, "no method was allowed"));
+            return Err(Failure { error, tried });
+        };
+        if candidate.intersections.total() > 0 {
+            tried.remove(position);
+        }
+        self.finish(hole, candidate, tried)
+    }
+
+    fn candidate(
+        &self,
+        hole: &Hole,
+        staircase: &mut Staircase<'_>,
+        method: Method,
+    ) -> Result<Candidate> {
+        let surface = staircase.patch(method)?;
+        check_patch(hole, &surface)?;
+        let points: Vec<Vec3> =
+            surface.points[surface.rim_count..].iter().map(|p| hole.to_mesh(p).into()).collect();
+        let triangles = global_triangles(hole, &surface.triangles, self.mesh.positions().len());
+        let patch = AppendedPatch { points: &points, triangles: &triangles };
+        let mesh = Surface { points: self.mesh.points(), triangles: self.mesh.triangles() };
+        let intersections = count(mesh, self.faces, patch, Search::All);
+        Ok(Candidate { method, surface, points, intersections })
+    }
+
+    fn finish(
+        &self,
+        hole: Hole,
+        candidate: Candidate,
+        tried: Vec<Attempt>,
+    ) -> std::result::Result<Plan, Failure> {
+        let Candidate { method, surface, points, intersections } = candidate;
+        let attributes = match carry(self.mesh, &hole, &surface) {
+            Ok(attributes) => attributes,
+            Err(error) => return Err(Failure { error, tried }),
+        };
+        let corners = |t: &[u32; 3]| t.map(|v| surface.points[v as usize]);
+        let min_angle = surface
+            .triangles
+            .iter()
+            .map(|t| smallest_angle(&corners(t)))
+            .fold(std::f64::consts::PI, f64::min);
+        Ok(Plan {
+            hole,
+            method,
+            tried,
+            points,
+            triangles: surface.triangles,
+            self_intersections: intersections.total(),
+            min_angle,
+            attributes,
+        })
+    }
+}
+
+struct Candidate {
+    method: Method,
+    surface: PatchSurface,
+    points: Vec<Vec3>,
+    intersections: SelfIntersections,
+}
+
+fn global_triangles(hole: &Hole, triangles: &[[u32; 3]], vertex_count: usize) -> Vec<[u32; 3]> {
+    let rim_count = hole.rim.len();
+    let global = |v: u32| match (v as usize).checked_sub(rim_count) {
+        Some(new) => (vertex_count + new) as u32,
+        None => hole.rim[v as usize],
+    };
+    triangles.iter().map(|t| t.map(global)).collect()
+}

@@ -1,0 +1,137 @@
+//! The staircase of practical methods: triangulate, refine, fair.
+//!
+//! Based on: G. Barequet, M. Sharir, "Filling gaps in the boundary of a polyhedron", CAGD 12(2), 1995;
+//! P. Liepa, "Filling holes in meshes", SGP 2003. Unlike there, the patch is refined again while it takes
+//! shape, so that its triangles are as regular on the final surface as they were on the first one.
+
+use super::hole::Hole;
+use super::method::Method;
+use super::options::FillOptions;
+use crate::error::{Error, ErrorKind, Result};
+use crate::fair::kharmonic::{Order, fair};
+use crate::fair::laplacian::Weights;
+use crate::math::sparse::SpdSolver;
+use crate::patch::PatchSurface;
+use crate::refine::{RefineOptions, grading, refine, rim_sizes};
+use crate::triangulate::{HolePolygon, TriangulationOptions, triangulate};
+
+/// Builds patches for one hole; the steps that several methods share are done once.
+pub(crate) struct Staircase<'a> {
+    hole: &'a Hole,
+    options: &'a FillOptions,
+    interrupted: &'a dyn Fn() -> bool,
+    flat: Option<Result<PatchSurface>>,
+    refined: Option<Result<Refined>>,
+}
+
+#[derive(Clone)]
+struct Refined {
+    surface: PatchSurface,
+    sizes: Vec<f64>,
+}
+
+impl<'a> Staircase<'a> {
+    /// Nothing is computed yet. `interrupted` is asked from time to time; true stops the work.
+    pub(crate) fn new(
+        hole: &'a Hole,
+        options: &'a FillOptions,
+        interrupted: &'a dyn Fn() -> bool,
+    ) -> Self {
+        Self { hole, options, interrupted, flat: None, refined: None }
+    }
+
+    /// The patch of `method` in the hole's coordinates.
+    ///
+    /// # Errors
+    /// Those of triangulation, refinement and fairing, and [`ErrorKind::Cancelled`].
+    pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
+        let order = match method {
+            Method::Flat => return self.flat(),
+            Method::Membrane => Order::One,
+            Method::Auto | Method::FairC1 => Order::Two,
+            Method::FairC2 => Order::Three,
+        };
+        let Refined { mut surface, mut sizes } = self.refined()?;
+        let mut solver = SpdSolver::default();
+        let around = &self.hole.surroundings;
+        fair(&mut surface, around, Order::One, Weights::Uniform, &mut solver)?;
+        self.refine(&mut surface, &mut sizes)?;
+        if order == Order::One {
+            fair(&mut surface, around, order, Weights::Cotangent, &mut solver)?;
+            return Ok(surface);
+        }
+        fair(&mut surface, around, Order::Two, Weights::Uniform, &mut solver)?;
+        self.refine(&mut surface, &mut sizes)?;
+        fair(&mut surface, around, Order::Two, Weights::Cotangent, &mut solver)?;
+        if order == Order::Three {
+            fair(&mut surface, around, order, Weights::Cotangent, &mut solver)?;
+        }
+        Ok(surface)
+    }
+
+    fn check_interruption(&self) -> Result<()> {
+        if (self.interrupted)() {
+            return Err(Error::new(ErrorKind::Cancelled, "stopped by the caller"));
+        }
+        Ok(())
+    }
+
+    fn flat(&mut self) -> Result<PatchSurface> {
+        if let Some(flat) = &self.flat {
+            return flat.clone();
+        }
+        let flat = self.triangulate();
+        self.flat.insert(flat).clone()
+    }
+
+    fn triangulate(&self) -> Result<PatchSurface> {
+        let hole = self.hole;
+        let points: Vec<_> = hole.polygon.iter().map(|&v| hole.points[v as usize]).collect();
+        let at = |position: usize| hole.polygon[position];
+        let polygon = HolePolygon {
+            points: &points,
+            outside_normals: &hole.outside_normals,
+            vertex_ids: &hole.polygon,
+            blocked: &|i, j| hole.is_joined(at(i), at(j)),
+        };
+        let options = TriangulationOptions {
+            exact_limit: self.options.exact_limit,
+            interrupted: self.interrupted,
+            ..TriangulationOptions::default()
+        };
+        let triangulation = triangulate(&polygon, &options)?;
+        let triangles =
+            triangulation.triangles.iter().map(|t| t.map(|position| at(position as usize)));
+        Ok(PatchSurface {
+            rim_count: hole.rim.len(),
+            points: hole.points.clone(),
+            triangles: triangles.collect(),
+        })
+    }
+
+    fn refined(&mut self) -> Result<Refined> {
+        if let Some(refined) = &self.refined {
+            return refined.clone();
+        }
+        let refined = self.flat().and_then(|mut surface| {
+            let mut sizes = rim_sizes(&surface, &self.hole.edge_lengths)?;
+            for size in &mut sizes {
+                *size *= self.options.density;
+            }
+            self.refine(&mut surface, &mut sizes)?;
+            Ok(Refined { surface, sizes })
+        });
+        self.refined.insert(refined).clone()
+    }
+
+    fn refine(&self, surface: &mut PatchSurface, sizes: &mut Vec<f64>) -> Result<()> {
+        self.check_interruption()?;
+        let options = RefineOptions {
+            grading: self.options.grading.unwrap_or_else(|| grading(surface.rim_count)),
+            max_vertices: surface.rim_count.saturating_add(self.options.max_new_vertices),
+            ..RefineOptions::default()
+        };
+        refine(surface, sizes, &options, &|a, b| self.hole.is_joined(a, b))?;
+        self.check_interruption()
+    }
+}

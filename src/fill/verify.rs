@@ -1,0 +1,125 @@
+//! Whether a patch may be used: the checks that every filled hole has passed.
+
+use super::hole::Hole;
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::cross_normal;
+use crate::mesh::connectivity::BOUNDARY;
+use crate::mesh::trimesh::TriMesh;
+use crate::patch::PatchSurface;
+use crate::quality::spatial::Aabb;
+
+/// A triangle has no area when its double area is below this share of the squared rim edge length, which
+/// is the unit of the hole's coordinates.
+const SMALLEST_DOUBLE_AREA: f64 = 2e-10;
+
+/// A patch that goes further from the middle of its rim than this many diameters of the rim has run away.
+const FARTHEST: f64 = 1.0;
+
+/// Checks the patch by itself and against the rim.
+///
+/// Every rim edge must have one triangle, which runs along it as the polygon does; every other edge two
+/// triangles of opposite direction, and no counterpart in the mesh; no triangle may be degenerate or
+/// without area; all points must be finite and near the hole.
+///
+/// # Errors
+/// [`ErrorKind::Topology`] or [`ErrorKind::Geometry`] with the first violation found.
+pub(crate) fn check_patch(hole: &Hole, surface: &PatchSurface) -> Result<()> {
+    if let Some(v) = surface.points.iter().position(|p| !p.iter().all(|c| c.is_finite())) {
+        return Err(geometry(format!("new vertex {v} is not finite")));
+    }
+    let rim = Aabb::around(&hole.points);
+    let limit = FARTHEST * (rim.hi - rim.lo).norm();
+    let middle = (rim.hi + rim.lo) / 2.0;
+    if surface.points.iter().any(|p| (p - middle).norm() > limit) {
+        return Err(geometry("the patch runs away from the hole".to_owned()));
+    }
+    let m = hole.polygon.len();
+    let mut rim_edges: Vec<(u32, u32)> = (0..m)
+        .filter(|&i| hole.outside_faces[i].is_some())
+        .map(|i| (hole.polygon[i], hole.polygon[(i + 1) % m]))
+        .collect();
+    rim_edges.sort_unstable();
+    let mut edges = Vec::with_capacity(3 * surface.triangles.len());
+    for t in &surface.triangles {
+        if t[0] == t[1] || t[1] == t[2] || t[2] == t[0] {
+            return Err(topology(format!("new triangle {t:?} names a vertex twice")));
+        }
+        let [a, b, c] = t.map(|v| &surface.points[v as usize]);
+        if cross_normal(a, b, c).norm() < SMALLEST_DOUBLE_AREA {
+            return Err(geometry("a new triangle has no area".to_owned()));
+        }
+        edges.extend((0..3).map(|k| (t[k], t[(k + 1) % 3])));
+    }
+    edges.sort_unstable_by_key(|&(a, b)| (a.min(b), a.max(b), a > b));
+    let mut rim_edges_met = 0;
+    for same in edges.chunk_by(|e, f| e == f || (e.0 == f.1 && e.1 == f.0)) {
+        let (a, b) = same[0];
+        let is_rim = rim_edges.binary_search(&(a, b)).is_ok();
+        let is_right = match same {
+            [_] => is_rim,
+            [e, f] => e.0 == f.1 && !is_rim && !hole.is_joined(a, b),
+            _ => false,
+        };
+        if !is_right {
+            return Err(topology(format!(
+                "an edge of the patch would have {} new triangles or join two vertices twice",
+                same.len()
+            )));
+        }
+        rim_edges_met += usize::from(is_rim);
+    }
+    if rim_edges_met != rim_edges.len() {
+        return Err(topology(format!(
+            "{} of {} rim edges would stay open",
+            rim_edges.len() - rim_edges_met,
+            rim_edges.len()
+        )));
+    }
+    Ok(())
+}
+
+/// Checks a patch, given by its triangles in the mesh's vertex indices, against the mesh as it is now:
+/// other holes may have been filled since the patch was made.
+///
+/// # Errors
+/// [`ErrorKind::Topology`] when the patch would repeat an edge or a triangle, or its rim is not open.
+pub(crate) fn check_against_mesh(
+    mesh: &TriMesh,
+    hole: &Hole,
+    triangles: &[[u32; 3]],
+) -> Result<()> {
+    let m = hole.polygon.len();
+    let at = |i: usize| hole.rim[hole.polygon[i % m] as usize];
+    let mut rim_edges = Vec::with_capacity(m);
+    for i in (0..m).filter(|&i| hole.outside_faces[i].is_some()) {
+        let (a, b) = (at(i), at(i + 1));
+        let known = mesh.connectivity().outgoing(b).find(|o| o.target == a);
+        if !known.is_some_and(|o| mesh.connectivity().twin(o.halfedge) == BOUNDARY) {
+            return Err(topology(format!("the edge between vertices {a} and {b} is not open")));
+        }
+        rim_edges.push((a.min(b), a.max(b)));
+    }
+    rim_edges.sort_unstable();
+    let is_old = |v: u32| (v as usize) < mesh.positions().len();
+    for t in triangles {
+        for k in 0..3 {
+            let (a, b) = (t[k], t[(k + 1) % 3]);
+            let is_rim = rim_edges.binary_search(&(a.min(b), a.max(b))).is_ok();
+            if is_old(a) && is_old(b) && !is_rim && mesh.connectivity().has_edge(a, b) {
+                return Err(topology(format!("vertices {a} and {b} are joined by an edge already")));
+            }
+        }
+        if t.iter().all(|&v| is_old(v)) && mesh.connectivity().has_face(mesh.triangles(), *t) {
+            return Err(topology(format!("the patch would repeat the triangle {t:?}")));
+        }
+    }
+    Ok(())
+}
+
+fn topology(message: String) -> Error {
+    Error::new(ErrorKind::Topology, message)
+}
+
+fn geometry(message: String) -> Error {
+    Error::new(ErrorKind::Geometry, message)
+}

@@ -1,0 +1,262 @@
+//! Mesh files as plain arrays: PLY, OBJ, OFF and STL.
+//!
+//! [`read`] and [`write()`] choose the format by the file's extension. A read keeps every vertex and
+//! triangle in the order of the file, and what a format can say about them is kept as
+//! [`Attributes`]; what is lost on the way is said in notes. Nothing is judged here but the file:
+//! coordinates may be NaN and triangles may be degenerate, while an index always has its vertex.
+//!
+//! The parsers are our own because `ply-rs`, `tobj` and `stl_io` lose vertices, precision or the
+//! place of an error, or are slow.
+
+mod atomic;
+mod obj;
+mod off;
+mod ply;
+mod polygons;
+mod stl;
+mod text;
+
+pub use ply::{PlyDetails, PlyElement, PlyEncoding};
+
+use crate::error::{Error, ErrorKind, Result};
+use crate::mesh::attributes::{AttributeValues, Attributes, ScalarType};
+use std::path::Path;
+use text::parse_error;
+
+/// The contents of a mesh file.
+#[derive(Clone, Debug)]
+pub struct MeshData {
+    /// One position per vertex. Single precision is widened exactly.
+    pub positions: Vec<[f64; 3]>,
+    /// Three indices of vertices per triangle; polygons are cut into triangles by [`read`].
+    pub triangles: Vec<[u32; 3]>,
+    /// What else the file says per vertex: colors, normals, ...
+    pub vertex_attributes: Attributes,
+    /// What else the file says per triangle.
+    pub face_attributes: Attributes,
+    /// The precision of the positions in the file, [`ScalarType::F32`] or [`ScalarType::F64`]; any
+    /// other type is taken for the latter.
+    pub position_type: ScalarType,
+    /// What only a PLY file says; other formats leave it at its default.
+    pub ply: PlyDetails,
+    /// What was left out or changed on reading, one sentence each.
+    pub notes: Vec<String>,
+}
+
+impl MeshData {
+    /// A mesh in double precision without attributes.
+    #[must_use]
+    pub fn new(positions: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Self {
+        Self {
+            vertex_attributes: Attributes::new(positions.len()),
+            face_attributes: Attributes::new(triangles.len()),
+            positions,
+            triangles,
+            position_type: ScalarType::F64,
+            ply: PlyDetails::default(),
+            notes: Vec::new(),
+        }
+    }
+
+    fn check(&self) -> Result<()> {
+        let counts = [
+            ("vertex", self.vertex_attributes.len(), self.positions.len()),
+            ("face", self.face_attributes.len(), self.triangles.len()),
+        ];
+        for (element, entries, expected) in counts {
+            if entries != expected {
+                return Err(invalid(format!(
+                    "the {element} attributes have {entries} entries instead of {expected}"
+                )));
+            }
+        }
+        let n = self.positions.len();
+        match self
+            .triangles
+            .iter()
+            .position(|t| t.iter().any(|&v| v as usize >= n))
+        {
+            Some(k) => Err(invalid(format!(
+                "triangle {k} has a corner that is not a vertex"
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// The red, green and blue (and alpha) columns, if they are numbers.
+    fn vertex_colors(&self) -> Option<Vec<&AttributeValues>> {
+        let numbers = |name| {
+            self.vertex_attributes
+                .get(name)
+                .filter(|values| matches!(values, AttributeValues::Scalars(_)))
+        };
+        let mut channels = vec![numbers("red")?, numbers("green")?, numbers("blue")?];
+        channels.extend(numbers("alpha"));
+        Some(channels)
+    }
+}
+
+/// A file format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Ply,
+    Obj,
+    Off,
+    Stl,
+}
+
+impl Format {
+    fn of(path: &Path) -> Result<Self> {
+        let extension = path
+            .extension()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .to_lowercase();
+        match extension.as_str() {
+            "ply" => Ok(Self::Ply),
+            "obj" => Ok(Self::Obj),
+            "off" => Ok(Self::Off),
+            "stl" => Ok(Self::Stl),
+            _ => Err(invalid(format!(
+                "{}: unknown file type; the known extensions are .ply, .obj, .off and .stl",
+                path.display()
+            ))),
+        }
+    }
+
+    fn parse(self, bytes: &[u8]) -> Result<MeshData> {
+        if bytes.is_empty() {
+            return Err(parse_error("the file is empty"));
+        }
+        match self {
+            Self::Ply => ply::parse(bytes),
+            Self::Obj => obj::parse(bytes),
+            Self::Off => off::parse(bytes),
+            Self::Stl => stl::parse(bytes),
+        }
+    }
+}
+
+/// Reads the mesh file at `path`.
+///
+/// # Errors
+/// [`ErrorKind::InvalidInput`] for an unknown extension, [`ErrorKind::Io`] when the file cannot be
+/// read, [`ErrorKind::Parse`] with the line, byte or face when its contents are not a mesh in that
+/// format, [`ErrorKind::Limit`] for more vertices than `u32` can number.
+///
+/// # Complexity
+/// Linear in the size of the file, which is held in memory; STL is O(n log n) in its triangles.
+/// A count in the file is checked against the file's size before memory is set aside for it.
+pub fn read(path: impl AsRef<Path>) -> Result<MeshData> {
+    let path = path.as_ref();
+    let format = Format::of(path)?;
+    let bytes = std::fs::read(path).map_err(|error| {
+        Error::new(
+            ErrorKind::Io,
+            format!("cannot read {}: {error}", path.display()),
+        )
+    })?;
+    format.parse(&bytes).map_err(|error| {
+        Error::new(
+            error.kind(),
+            format!("{}: {}", path.display(), error.message()),
+        )
+    })
+}
+
+/// Writes `mesh` to `path`, whole or not at all; an existing file is replaced.
+///
+/// Returns what the format could not hold, one sentence each. PLY holds everything; OBJ and OFF
+/// hold positions, triangles and the vertex colors `red`, `green`, `blue` (OFF also `alpha`); STL
+/// holds positions in single precision and triangles. Reading a file that was written in its own
+/// format gives the same bits again, STL's order of vertices excepted.
+///
+/// # Errors
+/// [`ErrorKind::InvalidInput`] for an unknown extension, attributes whose lengths or names do not
+/// fit, a triangle without its vertices, a finite coordinate beyond single precision in a format
+/// that stores it so; [`ErrorKind::Io`] when the file cannot be written.
+pub fn write(path: impl AsRef<Path>, mesh: &MeshData) -> Result<Vec<String>> {
+    let path = path.as_ref();
+    let format = Format::of(path)?;
+    mesh.check()?;
+    match format {
+        Format::Ply => {
+            ply::check(mesh)?;
+            atomic::replace(path, |out| ply::write(mesh, out))?;
+            Ok(Vec::new())
+        }
+        Format::Obj => {
+            atomic::replace(path, |out| obj::write(mesh, out))?;
+            Ok(lost_attributes(mesh, &["red", "green", "blue"]))
+        }
+        Format::Off => {
+            atomic::replace(path, |out| off::write(mesh, out))?;
+            Ok(lost_attributes(mesh, &["red", "green", "blue", "alpha"]))
+        }
+        Format::Stl => {
+            stl::check(mesh)?;
+            atomic::replace(path, |out| stl::write(mesh, out))?;
+            let mut notes = lost_attributes(mesh, &[]);
+            notes.extend(stl::rounding_note(mesh));
+            Ok(notes)
+        }
+    }
+}
+
+/// Says which attributes a format cannot hold that holds vertex colors at most.
+fn lost_attributes(mesh: &MeshData, kept_colors: &[&str]) -> Vec<String> {
+    let kept = if mesh.vertex_colors().is_some() {
+        kept_colors
+    } else {
+        &[]
+    };
+    let vertex = mesh
+        .vertex_attributes
+        .iter()
+        .map(|column| column.name.as_str());
+    let face = mesh
+        .face_attributes
+        .iter()
+        .map(|column| column.name.as_str());
+    let lost_vertex: Vec<_> = vertex.filter(|name| !kept.contains(name)).collect();
+    let lost_face: Vec<_> = face.collect();
+    let elements: Vec<_> = mesh.ply.elements.iter().map(|e| e.name.as_str()).collect();
+    [
+        ("vertex attributes", lost_vertex),
+        ("face attributes", lost_face),
+        ("elements", elements),
+    ]
+    .into_iter()
+    .filter(|(_, names)| !names.is_empty())
+    .map(|(what, names)| format!("{what} not written: {}", names.join(", ")))
+    .collect()
+}
+
+/// Refuses positions that are finite as they are but not in single precision.
+fn check_single_precision(mesh: &MeshData) -> Result<()> {
+    let overflows = |&x: &f64| x.is_finite() && !(x as f32).is_finite();
+    match mesh.positions.iter().position(|p| p.iter().any(overflows)) {
+        Some(k) => Err(invalid(format!(
+            "vertex {k} lies beyond the range of single precision"
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// The number of vertices, if `u32` can number them.
+fn check_vertex_count(count: usize) -> Result<()> {
+    if count > u32::MAX as usize {
+        return Err(Error::new(
+            ErrorKind::Limit,
+            format!("{count} vertices are too many"),
+        ));
+    }
+    Ok(())
+}
+
+fn invalid(message: impl Into<String>) -> Error {
+    Error::new(ErrorKind::InvalidInput, message)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,341 @@
+//! Target edge lengths: at the rim from the mesh, inside by interpolation and, in large holes,
+//! growing with the distance from the rim.
+//!
+//! Based on: P. Liepa, "Filling holes in meshes", Symposium on Geometry Processing, 2003 (a scale
+//! attribute at each rim vertex, inherited by inserted vertices), with the growth added here: a wide
+//! hole with `m` rim edges takes about `0.18 m²` triangles at uniform density, but only a multiple
+//! of `m` when the target length is `rim size + grading · distance from the rim`.
+//!
+//! `O(1)` per inserted vertex. Not guaranteed: distances run along patch edges, so they exceed
+//! straight ones by up to a sixth.
+
+use super::connectivity::{Connectivity, prev};
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::Vec3;
+use crate::patch::PatchSurface;
+use std::collections::VecDeque;
+
+/// Rims up to this many edges are filled at uniform density, with at most some 11,000 triangles.
+const UNIFORM_RIM: f64 = 250.0;
+
+/// Growth of the target length per distance from the rim, in the limit of very large rims. A round
+/// hole then takes about `11 m` triangles.
+const LIMIT_GRADING: f64 = 0.2;
+
+/// Smallest target length over the mean of the rim: coincident rim vertices must not ask for
+/// unlimited subdivision.
+const MIN_RELATIVE_SIZE: f64 = 1e-3;
+
+/// The growth of the target edge length with distance for a hole with `rim_count` edges.
+///
+/// Zero up to 250 edges, then `0.2 (1 - 250/m)²`: it starts with zero slope, and the triangles in
+/// a round hole stay near their number at 250 edges until `m` is about 700, from where on they
+/// grow in proportion to `m`.
+pub(crate) fn grading(rim_count: usize) -> f64 {
+    let rest = 1.0 - UNIFORM_RIM / (rim_count as f64).max(UNIFORM_RIM);
+    LIMIT_GRADING * rest * rest
+}
+
+/// Target edge length at each rim vertex: `mesh_edge_lengths[v]`, the mean length of the mesh edges
+/// at `v`, or the mean of its rim edges where that slice is too short or not positive.
+///
+/// # Errors
+/// `Topology` or `InvalidInput` when the patch is not manifold; `Geometry` when all rim vertices
+/// coincide.
+pub(crate) fn rim_sizes(surface: &PatchSurface, mesh_edge_lengths: &[f64]) -> Result<Vec<f64>> {
+    let usable = |length: f64| length.is_finite() && length > 0.0;
+    let mesh = Connectivity::build(
+        surface.triangles.clone(),
+        surface.points.len(),
+        surface.rim_count,
+    )?;
+    let mut sums = vec![(0.0, 0u32); surface.rim_count];
+    for &h in mesh.rim_halfedges() {
+        let (a, b) = (mesh.origin(h) as usize, mesh.target(h) as usize);
+        let length = (surface.points[a] - surface.points[b]).norm();
+        for v in [a, b] {
+            sums[v].0 += length;
+            sums[v].1 += 1;
+        }
+    }
+    let mut sizes: Vec<f64> = sums
+        .iter()
+        .enumerate()
+        .map(|(v, &(sum, count))| match mesh_edge_lengths.get(v) {
+            Some(&length) if usable(length) => length,
+            _ => sum / f64::from(count.max(1)),
+        })
+        .collect();
+    let mean = sizes.iter().sum::<f64>() / sizes.len().max(1) as f64;
+    if !usable(mean) {
+        return Err(Error::new(
+            ErrorKind::Geometry,
+            "the rim of the hole has no extent",
+        ));
+    }
+    for size in &mut sizes {
+        *size = size.max(MIN_RELATIVE_SIZE * mean);
+    }
+    Ok(sizes)
+}
+
+/// The target edge length at every vertex of a patch that is being refined.
+///
+/// A size is the sum of a base, interpolated from the rim, and the grading times the depth, the
+/// distance from the rim.
+pub(super) struct SizeField {
+    sizes: Vec<f64>,
+    depths: Vec<f64>,
+    grading: f64,
+}
+
+impl SizeField {
+    /// Takes sizes for all vertices, or for the rim only; interior vertices then inherit the size of
+    /// the nearest rim vertex.
+    ///
+    /// # Errors
+    /// `InvalidInput` unless there is one positive, finite size for each vertex or for each rim
+    /// vertex, and the grading is finite and not negative.
+    pub(super) fn new(
+        mesh: &Connectivity,
+        points: &[Vec3],
+        given: &[f64],
+        grading: f64,
+    ) -> Result<Self> {
+        let (rim, all) = (mesh.rim_count(), mesh.vertex_count());
+        if given.len() != rim && given.len() != all {
+            return Err(Error::new(
+                ErrorKind::InvalidInput,
+                format!(
+                    "{} target edge lengths for {rim} rim and {all} vertices",
+                    given.len()
+                ),
+            ));
+        }
+        if !given.iter().all(|s| s.is_finite() && *s > 0.0) {
+            return Err(Error::new(
+                ErrorKind::InvalidInput,
+                "a target edge length is not positive",
+            ));
+        }
+        if !(grading.is_finite() && grading >= 0.0) {
+            return Err(Error::new(
+                ErrorKind::InvalidInput,
+                "the grading is negative or not finite",
+            ));
+        }
+        if given.len() == all && grading == 0.0 {
+            return Ok(Self {
+                sizes: given.to_vec(),
+                depths: vec![0.0; all],
+                grading,
+            });
+        }
+        let (nearest, depths) = distances_from_rim(mesh, points);
+        let smallest = given[..rim].iter().copied().fold(f64::INFINITY, f64::min);
+        let sizes = (0..all).map(|v| {
+            let growth = grading * depths[v];
+            match given.get(v) {
+                // The patch may have moved since: a base below all rim sizes would feed on itself.
+                Some(&size) if v >= rim => (size - growth).max(smallest) + growth,
+                Some(&size) => size,
+                None => given[nearest[v] as usize] + growth,
+            }
+        });
+        Ok(Self {
+            sizes: sizes.collect(),
+            depths,
+            grading,
+        })
+    }
+
+    pub(super) fn at(&self, v: u32) -> f64 {
+        self.sizes[v as usize]
+    }
+
+    pub(super) fn into_sizes(self) -> Vec<f64> {
+        self.sizes
+    }
+
+    /// Moves the values of vertex `order[i]` to vertex `i`.
+    pub(super) fn permute(&mut self, order: &[u32]) {
+        for values in [&mut self.sizes, &mut self.depths] {
+            *values = order.iter().map(|&old| values[old as usize]).collect();
+        }
+    }
+
+    fn base(&self, v: u32) -> f64 {
+        self.sizes[v as usize] - self.grading * self.depths[v as usize]
+    }
+
+    /// Adds the size of a vertex at `middle`, between `ends` and opposite to `apexes`.
+    pub(super) fn push_midpoint(
+        &mut self,
+        points: &[Vec3],
+        middle: &Vec3,
+        ends: [u32; 2],
+        apexes: [u32; 2],
+    ) {
+        let base = 0.5 * (self.base(ends[0]) + self.base(ends[1]));
+        let depth = ends
+            .into_iter()
+            .chain(apexes)
+            .map(|v| self.depths[v as usize] + (points[v as usize] - middle).norm())
+            .fold(f64::INFINITY, f64::min);
+        self.sizes.push(base + self.grading * depth);
+        self.depths.push(depth);
+    }
+
+    /// Measures the depth of an interior vertex anew, given the distances to its neighbours.
+    pub(super) fn measure_depth(&mut self, v: u32, ring: impl Iterator<Item = (u32, f64)>) {
+        if self.grading == 0.0 {
+            return;
+        }
+        let base = self.base(v);
+        let depth = ring
+            .map(|(u, distance)| self.depths[u as usize] + distance)
+            .fold(f64::INFINITY, f64::min);
+        if depth.is_finite() {
+            self.depths[v as usize] = depth;
+            self.sizes[v as usize] = base + self.grading * depth;
+        }
+    }
+}
+
+/// For each vertex the nearest rim vertex and the distance to it along edges; vertices without
+/// triangles count as the rim's first.
+fn distances_from_rim(mesh: &Connectivity, points: &[Vec3]) -> (Vec<u32>, Vec<f64>) {
+    let (rim, all) = (mesh.rim_count(), mesh.vertex_count());
+    let mut nearest: Vec<u32> = (0..all as u32)
+        .map(|v| if (v as usize) < rim { v } else { 0 })
+        .collect();
+    let mut depths = vec![f64::INFINITY; all];
+    depths[..rim].fill(0.0);
+    if rim < all {
+        // Bellman-Ford with a queue: near the rim first, so few vertices are seen twice.
+        let mut waiting: VecDeque<u32> = (0..rim as u32).collect();
+        let mut queued = vec![true; all];
+        queued[rim..].fill(false);
+        while let Some(v) = waiting.pop_front() {
+            queued[v as usize] = false;
+            let neighbours = mesh
+                .corners(v)
+                .flat_map(|h| [mesh.target(h), mesh.origin(prev(h))]);
+            for u in neighbours.map(|u| u as usize) {
+                let depth = depths[v as usize] + (points[u] - points[v as usize]).norm();
+                if depth < depths[u] {
+                    depths[u] = depth;
+                    nearest[u] = nearest[v as usize];
+                    if !std::mem::replace(&mut queued[u], true) {
+                        waiting.push_back(u as u32);
+                    }
+                }
+            }
+        }
+    }
+    for depth in &mut depths {
+        if depth.is_infinite() {
+            *depth = 0.0;
+        }
+    }
+    (nearest, depths)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixtures::{disc_rim, fan_patch};
+    use super::*;
+
+    #[test]
+    fn grading_starts_smoothly_and_never_falls() {
+        assert!((0..=250).all(|m| grading(m) == 0.0));
+        assert!(grading(251) > 0.0 && grading(251) < 1e-5);
+        assert!((250..5000).all(|m| grading(m) < grading(m + 1)));
+        assert!(grading(usize::MAX) <= LIMIT_GRADING);
+    }
+
+    #[test]
+    fn mesh_edge_lengths_win_where_they_are_usable() {
+        let surface = fan_patch(disc_rim(6));
+        let sizes = rim_sizes(&surface, &[2.0, 0.0, f64::NAN, -1.0, f64::INFINITY]).unwrap();
+        assert_eq!(sizes[0], 2.0);
+        assert!(
+            sizes[1..].iter().all(|s| (s - 1.0).abs() < 1e-12),
+            "{sizes:?}"
+        );
+    }
+
+    #[test]
+    fn coincident_rim_vertices_get_a_small_but_positive_size() {
+        let mut surface = fan_patch(disc_rim(8));
+        surface.points[3] = surface.points[2];
+        surface.points[4] = surface.points[2];
+        let sizes = rim_sizes(&surface, &[]).unwrap();
+        assert!(sizes[3] > 0.0 && sizes[3] < 0.01);
+        surface.points.fill(Vec3::new(1.0, 1.0, 1.0));
+        assert_eq!(
+            rim_sizes(&surface, &[]).unwrap_err().kind(),
+            ErrorKind::Geometry
+        );
+    }
+
+    #[test]
+    fn pinched_rim_vertices_average_all_their_rim_edges() {
+        let surface = PatchSurface {
+            rim_count: 5,
+            points: vec![
+                Vec3::zeros(),
+                Vec3::x(),
+                Vec3::new(0.0, 1.0, 0.0),
+                Vec3::new(-3.0, 0.0, 0.0),
+                Vec3::new(0.0, -3.0, 0.0),
+            ],
+            triangles: vec![[0, 1, 2], [0, 3, 4]],
+        };
+        assert_eq!(rim_sizes(&surface, &[]).unwrap()[0], 2.0);
+    }
+
+    #[test]
+    fn sizes_that_do_not_fit_the_patch_are_refused() {
+        let surface = fan_patch(disc_rim(5));
+        let mesh = Connectivity::build(surface.triangles, 5, 5).unwrap();
+        let bad = |sizes: &[f64], grading| {
+            SizeField::new(&mesh, &surface.points, sizes, grading).is_err()
+        };
+        assert!(bad(&[1.0; 4], 0.0) && bad(&[1.0; 6], 0.0) && bad(&[], 0.0));
+        assert!(bad(&[0.0; 5], 0.0) && bad(&[f64::NAN; 5], 0.0));
+        assert!(bad(&[1.0; 5], -0.1) && bad(&[1.0; 5], f64::NAN));
+    }
+
+    #[test]
+    fn a_midpoint_averages_its_ends_and_grows_with_the_distance_from_the_rim() {
+        let surface = fan_patch(disc_rim(4));
+        let mesh = Connectivity::build(surface.triangles, 4, 4).unwrap();
+        let given = [1.0, 2.0, 3.0, 4.0];
+        for (grading, expected) in [(0.0, 2.0), (0.5, 2.0 + 0.5 * 0.5_f64.sqrt())] {
+            let mut sizes = SizeField::new(&mesh, &surface.points, &given, grading).unwrap();
+            sizes.push_midpoint(&surface.points, &Vec3::zeros(), [0, 2], [1, 3]);
+            assert!(
+                (sizes.at(4) - expected).abs() < 1e-12,
+                "{} {expected}",
+                sizes.at(4)
+            );
+        }
+    }
+
+    #[test]
+    fn interior_vertices_without_a_size_inherit_the_nearest_rim_vertex() {
+        // A wheel whose hub sits close to vertex 2.
+        let mut points = disc_rim(6);
+        points.push(points[2] * 0.9);
+        let triangles = (0..6).map(|i| [6, i, (i + 1) % 6]).collect();
+        let mesh = Connectivity::build(triangles, 7, 6).unwrap();
+        let given = [1.0, 1.0, 7.0, 1.0, 1.0, 1.0];
+        let sizes = SizeField::new(&mesh, &points, &given, 0.5).unwrap();
+        assert!(
+            (sizes.at(6) - (7.0 + 0.5 * 0.1)).abs() < 1e-9,
+            "{}",
+            sizes.at(6)
+        );
+    }
+}

@@ -1,0 +1,306 @@
+//! Delaunay edge flips, driven by a stack of edges whose neighbourhood changed.
+//!
+//! An edge is flipped when the two angles opposite to it sum to more than π: the empty-circle test,
+//! in a form that needs no plane.
+//! Based on: C. L. Lawson, "Software for C1 surface interpolation", Mathematical Software III, 1977;
+//! the angle form on surfaces follows A. Bobenko and B. Springborn, "A discrete Laplace-Beltrami
+//! operator for simplicial surfaces", Discrete & Computational Geometry 38, 2007.
+//!
+//! Cost: one test per edge on the stack, `O(valence)` more per flip. In the plane the result is
+//! Delaunay wherever no veto holds; on a curved patch a flip changes the surface, so nothing
+//! guarantees that the flips end by themselves. Each call therefore has a flip budget.
+
+use super::connectivity::{Connectivity, Halfedge, next, prev};
+use crate::math::{Vec3, cross_normal, unit};
+
+/// Opposite angles count as more than π when the sine of their sum is below minus this. Cocircular
+/// corners, as in any regular grid, give rounding noise of about 1e-15 that must not cause flips.
+const ANGLE_TOLERANCE: f64 = 1e-9;
+
+/// Least cosine between a new triangle's normal and the mean normal of the two it replaces. Larger
+/// turns (over 72 degrees) would fold the patch or cut through a ridge.
+const MIN_NORMAL_COSINE: f64 = 0.3;
+
+/// Flips granted per stacked edge of one call. Lawson's method needs about one in practice; the rest
+/// is for unlucky initial triangulations.
+const FLIPS_PER_EDGE: usize = 16;
+
+/// Whether an edge between these two rim vertices exists outside the patch.
+pub(super) type Blocked<'a> = dyn Fn(u32, u32) -> bool + 'a;
+
+/// Flips edges of one patch; owns the stack so that it is allocated once.
+pub(super) struct Flipper<'a> {
+    blocked: &'a Blocked<'a>,
+    stack: Vec<Halfedge>,
+}
+
+impl<'a> Flipper<'a> {
+    pub(super) fn new(blocked: &'a Blocked<'a>) -> Self {
+        Self {
+            blocked,
+            stack: Vec::new(),
+        }
+    }
+
+    /// Tests `edges`, and every edge next to a flipped one, until no flip is due. Returns the number
+    /// of flips.
+    pub(super) fn restore(
+        &mut self,
+        mesh: &mut Connectivity,
+        points: &[Vec3],
+        edges: impl ExactSizeIterator<Item = Halfedge>,
+    ) -> usize {
+        let mut budget = FLIPS_PER_EDGE * edges.len();
+        let granted = budget;
+        for h in edges {
+            self.restore_from(mesh, points, h, &mut budget);
+        }
+        granted - budget
+    }
+
+    /// [`Self::restore`] over all edges of the patch.
+    pub(super) fn restore_all(&mut self, mesh: &mut Connectivity, points: &[Vec3]) -> usize {
+        let mut budget = FLIPS_PER_EDGE * mesh.halfedge_count() as usize;
+        let granted = budget;
+        for h in 0..mesh.halfedge_count() {
+            // Once per edge is enough: a flip that renumbers an edge also stacks it.
+            if mesh.opposite(h).is_some_and(|g| h < g) {
+                self.restore_from(mesh, points, h, &mut budget);
+            }
+        }
+        granted - budget
+    }
+
+    fn restore_from(
+        &mut self,
+        mesh: &mut Connectivity,
+        points: &[Vec3],
+        first: Halfedge,
+        budget: &mut usize,
+    ) {
+        self.stack.push(first);
+        while let Some(h) = self.stack.pop() {
+            let Some(g) = mesh.opposite(h) else { continue };
+            if *budget > 0 && wants_flip(mesh, points, h, g) && self.may_flip(mesh, h, g) {
+                self.stack.extend(mesh.flip(h, g));
+                *budget -= 1;
+            }
+        }
+    }
+
+    fn may_flip(&self, mesh: &Connectivity, h: Halfedge, g: Halfedge) -> bool {
+        let (c, d) = (mesh.apex(h), mesh.apex(g));
+        let on_rim = c.max(d) < mesh.rim_count() as u32;
+        !mesh.has_edge(c, d) && !(on_rim && (self.blocked)(c, d))
+    }
+}
+
+/// Whether the edge violates the Delaunay condition and its flip would not fold the surface.
+fn wants_flip(mesh: &Connectivity, points: &[Vec3], h: Halfedge, g: Halfedge) -> bool {
+    let corner = |h| &points[mesh.origin(h) as usize];
+    let (a, b, c, d) = (corner(h), corner(next(h)), corner(prev(h)), corner(prev(g)));
+    let (ca, cb, da, db) = (a - c, b - c, a - d, b - d);
+    let (cos_c, cos_d) = (ca.dot(&cb), da.dot(&db));
+    if cos_c >= 0.0 && cos_d >= 0.0 {
+        return false; // neither angle is obtuse
+    }
+    let (normal_c, normal_d) = (ca.cross(&cb), db.cross(&da));
+    let (sin_c, sin_d) = (normal_c.norm(), normal_d.norm());
+    let scale =
+        (ca.norm_squared() * cb.norm_squared() * da.norm_squared() * db.norm_squared()).sqrt();
+    if sin_c * cos_d + cos_c * sin_d >= -ANGLE_TOLERANCE * scale {
+        return false;
+    }
+    let mean = unit(unit(normal_c) + unit(normal_d));
+    let keeps_side = |n: Vec3| {
+        let length = n.norm();
+        length > f64::MIN_POSITIVE && n.dot(&mean) >= MIN_NORMAL_COSINE * length
+    };
+    keeps_side(cross_normal(c, a, d)) && keeps_side(cross_normal(d, b, c))
+}
+
+/// Number of interior edges that [`Flipper::restore_all`] would still have to flip.
+#[cfg(test)]
+pub(super) fn count_violations(
+    mesh: &Connectivity,
+    points: &[Vec3],
+    blocked: &Blocked<'_>,
+) -> usize {
+    let flipper = Flipper::new(blocked);
+    (0..mesh.halfedge_count())
+        .filter(|&h| {
+            mesh.opposite(h).is_some_and(|g| {
+                g > h && wants_flip(mesh, points, h, g) && flipper.may_flip(mesh, h, g)
+            })
+        })
+        .count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixtures::{disc_rim, fan, star_rim};
+    use super::*;
+    use proptest::prelude::*;
+
+    fn connect(points: &[Vec3], triangles: Vec<[u32; 3]>) -> Connectivity {
+        Connectivity::build(triangles, points.len(), points.len()).unwrap()
+    }
+
+    fn kite() -> (Vec<Vec3>, Connectivity) {
+        let points = vec![
+            Vec3::new(-2.0, 0.0, 0.0),
+            Vec3::new(0.0, -1.0, 0.0),
+            Vec3::new(2.0, 0.0, 0.0),
+            Vec3::new(0.0, 1.0, 0.0),
+        ];
+        let mesh = connect(&points, vec![[0, 1, 2], [0, 2, 3]]);
+        (points, mesh)
+    }
+
+    /// Whether any corner lies inside the circle of any triangle, by the in-circle determinant.
+    fn circles_are_empty(mesh: &Connectivity, points: &[Vec3]) -> bool {
+        mesh.triangles().iter().all(|t| {
+            points.iter().all(|p| {
+                let row = |v: u32| {
+                    let q = points[v as usize] - p;
+                    Vec3::new(q.x, q.y, q.norm_squared())
+                };
+                row(t[0]).dot(&row(t[1]).cross(&row(t[2]))) < 1e-7
+            })
+        })
+    }
+
+    #[test]
+    fn the_long_diagonal_of_a_kite_is_flipped_unless_the_mesh_owns_the_short_one() {
+        let (points, mut mesh) = kite();
+        assert_eq!(
+            Flipper::new(&|a, b| a + b == 4).restore_all(&mut mesh, &points),
+            0
+        );
+        assert_eq!(
+            Flipper::new(&|_, _| false).restore_all(&mut mesh, &points),
+            1
+        );
+        assert!(mesh.has_edge(1, 3) && !mesh.has_edge(0, 2));
+        mesh.validate();
+    }
+
+    #[test]
+    fn a_square_is_left_alone_whatever_its_place_and_scale() {
+        for (scale, shift) in [(1.0, 0.0), (1e-6, 1.0), (1e9, 0.0), (0.1, 1e3)] {
+            let corner = |x: f64, y: f64| Vec3::new(shift + scale * x, shift + scale * y, 0.1);
+            let points = vec![
+                corner(0.0, 0.0),
+                corner(1.0, 0.0),
+                corner(1.0, 1.0),
+                corner(0.0, 1.0),
+            ];
+            let mut mesh = connect(&points, vec![[0, 1, 2], [0, 2, 3]]);
+            assert_eq!(
+                Flipper::new(&|_, _| false).restore_all(&mut mesh, &points),
+                0
+            );
+        }
+    }
+
+    #[test]
+    fn a_flip_that_would_fold_a_reflex_quadrilateral_is_refused() {
+        let points = vec![
+            Vec3::new(-2.0, 0.0, 0.0),
+            Vec3::new(-1.0, -0.2, 0.0),
+            Vec3::new(2.0, 0.0, 0.0),
+            Vec3::new(3.0, 0.1, 0.0),
+        ];
+        let mut mesh = connect(&points, vec![[0, 1, 2], [0, 2, 3]]);
+        assert_eq!(
+            Flipper::new(&|_, _| false).restore_all(&mut mesh, &points),
+            0
+        );
+    }
+
+    #[test]
+    fn a_collinear_triangle_is_flipped_away() {
+        let points = vec![
+            Vec3::new(0.0, 0.0, 0.0),
+            Vec3::new(1.0, 0.0, 0.0),
+            Vec3::new(2.0, 0.0, 0.0),
+            Vec3::new(1.0, 1.0, 0.0),
+        ];
+        let mut mesh = connect(&points, vec![[0, 1, 2], [0, 2, 3]]);
+        assert_eq!(
+            Flipper::new(&|_, _| false).restore_all(&mut mesh, &points),
+            1
+        );
+    }
+
+    #[test]
+    fn coincident_points_cause_no_flip_and_no_endless_loop() {
+        let points = vec![Vec3::new(1.0, 2.0, 3.0); 9];
+        let mut mesh = connect(&points, fan(9));
+        assert_eq!(
+            Flipper::new(&|_, _| false).restore_all(&mut mesh, &points),
+            0
+        );
+    }
+
+    #[test]
+    fn a_convex_fan_becomes_the_delaunay_triangulation() {
+        for n in [4, 5, 17, 60] {
+            let points: Vec<_> = disc_rim(n)
+                .iter()
+                .map(|p| Vec3::new(p.x, 0.37 * p.y + 0.1 * p.x, 0.0))
+                .collect();
+            let mut mesh = connect(&points, fan(n));
+            Flipper::new(&|_, _| false).restore_all(&mut mesh, &points);
+            mesh.validate();
+            assert!(circles_are_empty(&mesh, &points), "{n} corners");
+        }
+    }
+
+    #[test]
+    fn helical_strips_end_without_violations() {
+        let n = 80;
+        let points: Vec<_> = (0..2 * n)
+            .map(|i| {
+                let (k, r) = if i < n {
+                    (i, 1.0)
+                } else {
+                    (2 * n - 1 - i, 2.5)
+                };
+                let angle = 0.2 * k as f64;
+                Vec3::new(r * angle.cos(), r * angle.sin(), 0.05 * k as f64)
+            })
+            .collect();
+        let last = 2 * n as u32 - 1;
+        // A zigzag with every third quadrilateral cut the long way.
+        let triangles = (0..n as u32 - 1).flat_map(|k| {
+            if k % 3 == 0 {
+                [[k, last - k, k + 1], [k + 1, last - k, last - k - 1]]
+            } else {
+                [[k, last - k, last - k - 1], [k, last - k - 1, k + 1]]
+            }
+        });
+        let mut mesh = connect(&points, triangles.collect());
+        let flips = Flipper::new(&|_, _| false).restore_all(&mut mesh, &points);
+        assert!(flips < 4 * n);
+        mesh.validate();
+        assert_eq!(count_violations(&mesh, &points, &|_, _| false), 0);
+    }
+
+    proptest! {
+        #[test]
+        fn star_polygons_end_locally_delaunay(
+            radii in prop::collection::vec(0.01f64..1.0, 3..40),
+            blocks in any::<u32>(),
+        ) {
+            let points = star_rim(&radii);
+            let mut mesh = connect(&points, fan(points.len()));
+            let rim = mesh.rim_pairs();
+            let blocked = |a: u32, b: u32| blocks.rotate_left(a + b) & 7 == 0;
+            Flipper::new(&blocked).restore_all(&mut mesh, &points);
+            mesh.validate();
+            prop_assert_eq!(mesh.rim_pairs(), rim);
+            prop_assert_eq!(count_violations(&mesh, &points, &blocked), 0);
+        }
+    }
+}

@@ -1,0 +1,790 @@
+//! Splits, flips and relaxes a patch until its edges have the target length.
+//!
+//! Based on: P. Liepa, "Filling holes in meshes", Symposium on Geometry Processing, 2003 (insertion
+//! by a size attribute, edges kept Delaunay), with insertion by edge splits and tangential relaxation
+//! from M. Botsch and L. Kobbelt, "A remeshing approach to multiresolution modeling", Symposium on
+//! Geometry Processing, 2004. Nothing is ever collapsed: the first triangulation has no interior
+//! vertex, so there is nothing to remove.
+//!
+//! Each pass splits an independent set of too long edges, longest first, restores the Delaunay
+//! property and relaxes; passes that split little work only near their new vertices. `O(n log n)` for
+//! `n` triangles in the result, on every input met so far.
+//!
+//! Rim vertices keep their bits, rim edges are neither split nor flipped. Not guaranteed: that no
+//! two triangles of a strongly twisted patch intersect; that edges just under the splitting threshold
+//! are the best choice for very small holes.
+
+use super::connectivity::{Connectivity, Halfedge, next, prev};
+use super::density::SizeField;
+use super::flip::{Blocked, Flipper};
+use super::locality::renumber;
+use super::relax::Relaxer;
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::Vec3;
+use crate::patch::PatchSurface;
+use std::cmp::Reverse;
+
+/// Each pass at least halves the longest edges' excess, give or take neighbours that exclude each
+/// other; only inputs on which splitting makes no headway come near this.
+const MAX_PASSES: usize = 128;
+
+/// A pass that adds less than this part of the vertices relaxes only the surroundings of its own.
+const LOCAL_PASS: f64 = 0.1;
+
+/// How many edges from a new vertex a local pass reaches.
+const LOCAL_RINGS: usize = 2;
+
+/// Patches with fewer vertices fit into the cache in any order.
+const RENUMBER_FROM: usize = 5_000;
+
+/// Growth after which the vertices are put in order again.
+const RENUMBER_GROWTH: f64 = 1.3;
+
+/// Relaxation has settled when no vertex moves by more than this part of its target edge length.
+const SETTLED_MOVE: f64 = 1e-3;
+
+/// Rims of up to this many edges are closed without an interior vertex unless an edge exceeds the
+/// target by more than the diagonals of regular polygons of that size.
+const SMALL_RIM: usize = 5;
+
+/// Diagonal over side in the regular pentagon, 1.618, and some room for irregular ones.
+const SMALL_RIM_FACTOR: f64 = 1.75;
+
+/// How to refine.
+#[derive(Clone, Debug)]
+pub(crate) struct RefineOptions {
+    /// Interior edges longer than this times the mean target length of their ends are split.
+    pub(crate) split_factor: f64,
+    /// The same for interior edges between two rim vertices, which would tie the rim together.
+    pub(crate) chord_factor: f64,
+    /// Growth of the target length of new vertices per distance from the rim; 0 is uniform.
+    pub(crate) grading: f64,
+    /// Relaxations after each pass of splits.
+    pub(crate) pass_relaxations: usize,
+    /// Relaxations of the whole patch when nothing is left to split.
+    pub(crate) final_relaxations: usize,
+    /// Refinement that needs more vertices than this fails.
+    pub(crate) max_vertices: usize,
+}
+
+impl Default for RefineOptions {
+    fn default() -> Self {
+        Self {
+            split_factor: 1.4,
+            chord_factor: 1.25,
+            grading: 0.0,
+            pass_relaxations: 2,
+            final_relaxations: 3,
+            max_vertices: 10_000_000,
+        }
+    }
+}
+
+/// What refinement did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct RefineReport {
+    /// Vertices inserted.
+    pub(crate) splits: usize,
+    /// Edges flipped.
+    pub(crate) flips: usize,
+    /// Longest way that a vertex went in the last relaxation, in target edge lengths.
+    pub(crate) last_move: f64,
+}
+
+impl RefineReport {
+    /// Whether the triangles are others than before.
+    pub(crate) fn changed(&self) -> bool {
+        self.splits + self.flips > 0
+    }
+}
+
+/// Refines `surface` until no interior edge is longer than its target length allows.
+///
+/// `sizes` holds the target edge length of each rim vertex or of each vertex, and of each vertex
+/// afterwards. `blocked(a, b)` says that the mesh round the patch has an edge between the rim
+/// vertices `a` and `b`, which therefore must not appear in the patch. Meant to be called again
+/// after the points moved: a patch that is still fine costs one look at every edge and the final
+/// relaxations.
+///
+/// # Errors
+/// `Topology` or `InvalidInput` for a patch that is not manifold, points that are not finite or sizes
+/// that are not positive; `Limit` when `max_vertices` do not suffice. The surface is then unchanged.
+pub(crate) fn refine(
+    surface: &mut PatchSurface,
+    sizes: &mut Vec<f64>,
+    options: &RefineOptions,
+    blocked: &Blocked<'_>,
+) -> Result<RefineReport> {
+    if !surface.points.iter().flatten().all(|x| x.is_finite()) {
+        return Err(Error::new(
+            ErrorKind::InvalidInput,
+            "a patch point is not finite",
+        ));
+    }
+    let mesh = Connectivity::build(
+        surface.triangles.clone(),
+        surface.points.len(),
+        surface.rim_count,
+    )?;
+    let field = SizeField::new(&mesh, &surface.points, sizes, options.grading)?;
+    let mut refiner = Refiner {
+        points: surface.points.clone(),
+        mesh,
+        sizes: field,
+        options,
+        flipper: Flipper::new(blocked),
+        relaxer: Relaxer::new(),
+        dirty: Vec::new(),
+        ordered: surface.points.len().max(RENUMBER_FROM),
+        report: RefineReport::default(),
+    };
+    refiner.run()?;
+    surface.points = refiner.points;
+    surface.triangles = refiner.mesh.into_triangles();
+    *sizes = refiner.sizes.into_sizes();
+    Ok(refiner.report)
+}
+
+struct Refiner<'a> {
+    mesh: Connectivity,
+    points: Vec<Vec3>,
+    sizes: SizeField,
+    options: &'a RefineOptions,
+    flipper: Flipper<'a>,
+    relaxer: Relaxer,
+    /// Edges whose Delaunay property a split or a move may have broken.
+    dirty: Vec<Halfedge>,
+    /// Number of vertices when they were last put in order.
+    ordered: usize,
+    report: RefineReport,
+}
+
+impl Refiner<'_> {
+    fn run(&mut self) -> Result<()> {
+        self.report.flips += self.flipper.restore_all(&mut self.mesh, &self.points);
+        self.split_until_short()?;
+        for _ in 0..self.options.final_relaxations {
+            self.relax_all();
+            if self.report.last_move < SETTLED_MOVE {
+                break;
+            }
+        }
+        self.split_until_short()
+    }
+
+    fn split_until_short(&mut self) -> Result<()> {
+        // Where the last pass worked, if that was not everywhere.
+        let mut near: Option<Vec<u32>> = None;
+        for _ in 0..MAX_PASSES {
+            let before = self.mesh.vertex_count();
+            let long = match &near {
+                Some(near) => self.long_edges(near.iter().flat_map(|&v| self.mesh.corners(v))),
+                None => self.long_edges((0..self.mesh.halfedge_count()).filter(|&h| {
+                    self.mesh.opposite(h).is_some_and(|g| h < g) // each edge once
+                })),
+            };
+            self.split_edges(long)?;
+            let added = self.mesh.vertex_count() - before;
+            if added == 0 && near.take().is_none() {
+                break;
+            }
+            self.report.splits += added;
+            self.restore_dirty();
+            let reordered = self.order_if_grown();
+            let local = (added as f64) < LOCAL_PASS * before as f64 && !reordered;
+            near = (local && added > 0).then(|| self.vertices_near(before as u32));
+            for _ in 0..self.options.pass_relaxations {
+                match &near {
+                    Some(near) => self.relax_some(near),
+                    None if added > 0 => self.relax_all(),
+                    None => {}
+                }
+            }
+            #[cfg(test)]
+            self.mesh.validate();
+        }
+        Ok(())
+    }
+
+    /// Whether the patch grew so much that its vertices and triangles now have new numbers.
+    fn order_if_grown(&mut self) -> bool {
+        let grown = self.mesh.vertex_count() as f64 > RENUMBER_GROWTH * self.ordered as f64;
+        if grown {
+            self.ordered = self.mesh.vertex_count();
+            renumber(&mut self.mesh, &mut self.points, &mut self.sizes);
+        }
+        grown
+    }
+
+    /// Length of an edge over the length at which it is split.
+    fn excess(&self, a: u32, b: u32) -> f64 {
+        let rim = self.mesh.rim_count();
+        let factor = if (a.max(b) as usize) >= rim {
+            self.options.split_factor
+        } else if rim > SMALL_RIM {
+            self.options.chord_factor
+        } else {
+            self.options.split_factor.max(SMALL_RIM_FACTOR)
+        };
+        let length = (self.points[a as usize] - self.points[b as usize]).norm();
+        length / (0.5 * factor * (self.sizes.at(a) + self.sizes.at(b)))
+    }
+
+    /// Those of `edges` that are interior and too long, longest first to a quarter of an octave.
+    fn long_edges(&self, edges: impl Iterator<Item = Halfedge>) -> Vec<(Reverse<u32>, Halfedge)> {
+        // The leading bits of a positive float are its octave and quarter of an octave.
+        let quarter = |excess: f64| (excess.to_bits() >> 50) as u32;
+        let mut long: Vec<_> = edges
+            .filter_map(|h| Some(h.min(self.mesh.opposite(h)?)))
+            .map(|h| {
+                (
+                    Reverse(quarter(
+                        self.excess(self.mesh.origin(h), self.mesh.target(h)),
+                    )),
+                    h,
+                )
+            })
+            .filter(|(Reverse(class), _)| *class >= quarter(1.0))
+            .collect();
+        long.sort_unstable();
+        long.dedup();
+        long
+    }
+
+    /// Splits the edges in turn, no two of one triangle.
+    fn split_edges(&mut self, long: Vec<(Reverse<u32>, Halfedge)>) -> Result<()> {
+        let mut used = vec![false; self.mesh.triangles().len()];
+        for (_, h) in long {
+            let Some(g) = self.mesh.opposite(h) else {
+                continue;
+            };
+            let is_used = |h: Halfedge| used.get(h as usize / 3).is_none_or(|&u| u);
+            if is_used(h) || is_used(g) {
+                continue;
+            }
+            if self.mesh.vertex_count() >= self.options.max_vertices {
+                return Err(Error::new(
+                    ErrorKind::Limit,
+                    format!(
+                        "the patch needs more than {} vertices",
+                        self.options.max_vertices
+                    ),
+                ));
+            }
+            used[h as usize / 3] = true;
+            used[g as usize / 3] = true;
+            self.split(h, g);
+        }
+        Ok(())
+    }
+
+    fn split(&mut self, h: Halfedge, g: Halfedge) {
+        let (a, b) = (self.mesh.origin(h), self.mesh.origin(g));
+        let apexes = [self.mesh.apex(h), self.mesh.apex(g)];
+        let middle = self.points[a as usize] * 0.5 + self.points[b as usize] * 0.5;
+        self.sizes
+            .push_midpoint(&self.points, &middle, [a, b], apexes);
+        self.points.push(middle);
+        let outer = self.mesh.split(h, g);
+        self.dirty.extend(outer);
+        self.dirty.extend([h, next(h), prev(g), prev(outer[1])]);
+    }
+
+    fn restore_dirty(&mut self) {
+        self.report.flips +=
+            self.flipper
+                .restore(&mut self.mesh, &self.points, self.dirty.drain(..));
+    }
+
+    fn relax_all(&mut self) {
+        self.report.last_move = 0.0;
+        for v in self.mesh.rim_count() as u32..self.mesh.vertex_count() as u32 {
+            self.relax_vertex(v);
+        }
+        self.report.flips += self.flipper.restore_all(&mut self.mesh, &self.points);
+    }
+
+    /// Relaxes interior `vertices` and restores the edges round them.
+    fn relax_some(&mut self, vertices: &[u32]) {
+        self.report.last_move = 0.0;
+        for &v in vertices {
+            self.relax_vertex(v);
+            self.dirty
+                .extend(self.mesh.corners(v).flat_map(|h| [h, next(h)]));
+        }
+        self.restore_dirty();
+    }
+
+    fn relax_vertex(&mut self, v: u32) {
+        let way = self
+            .relaxer
+            .relax(&self.mesh, &mut self.points, &mut self.sizes, v);
+        self.report.last_move = self.report.last_move.max(way);
+    }
+
+    /// The vertices from `first_new` on and all interior ones within [`LOCAL_RINGS`] of them, sorted.
+    fn vertices_near(&self, first_new: u32) -> Vec<u32> {
+        let mut near: Vec<u32> = (first_new..self.mesh.vertex_count() as u32).collect();
+        let mut seen = vec![false; self.mesh.vertex_count()];
+        seen[first_new as usize..].fill(true);
+        seen[..self.mesh.rim_count()].fill(true); // never to be relaxed
+        let mut ring = 0;
+        for _ in 0..LOCAL_RINGS {
+            let end = near.len();
+            for i in ring..end {
+                for h in self.mesh.corners(near[i]) {
+                    let u = self.mesh.target(h);
+                    if !std::mem::replace(&mut seen[u as usize], true) {
+                        near.push(u);
+                    }
+                }
+            }
+            ring = end;
+        }
+        near.sort_unstable();
+        near
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::density::{grading, rim_sizes};
+    use super::super::fixtures::{disc_rim, fan, fan_patch, star_rim, strip_patch};
+    use super::super::flip::count_violations;
+    use super::*;
+    use proptest::prelude::*;
+    use std::f64::consts::TAU;
+
+    fn connect(surface: &PatchSurface) -> Connectivity {
+        let triangles = surface.triangles.clone();
+        Connectivity::build(triangles, surface.points.len(), surface.rim_count).unwrap()
+    }
+
+    /// Refines at the rim's density and checks all that holds for any input.
+    fn refined_with(
+        surface: &PatchSurface,
+        options: &RefineOptions,
+        blocked: &Blocked<'_>,
+    ) -> (PatchSurface, Vec<f64>, RefineReport) {
+        let mut sizes = rim_sizes(surface, &[]).unwrap();
+        let mut out = surface.clone();
+        let report = refine(&mut out, &mut sizes, options, blocked).unwrap();
+        check_invariants(surface, &out, &sizes);
+        assert_eq!(out.points.len(), surface.points.len() + report.splits);
+        (out, sizes, report)
+    }
+
+    fn refined(surface: &PatchSurface) -> (PatchSurface, Vec<f64>) {
+        let options = RefineOptions {
+            grading: grading(surface.rim_count),
+            ..RefineOptions::default()
+        };
+        let (out, sizes, _) = refined_with(surface, &options, &|_, _| false);
+        (out, sizes)
+    }
+
+    fn check_invariants(before: &PatchSurface, after: &PatchSurface, sizes: &[f64]) {
+        let (old, new) = (connect(before), connect(after));
+        new.validate();
+        assert_eq!(new.rim_pairs(), old.rim_pairs(), "rim edges");
+        assert_eq!(new.euler(), old.euler(), "Euler characteristic");
+        let bits = |s: &PatchSurface| -> Vec<[u64; 3]> {
+            s.points[..s.rim_count]
+                .iter()
+                .map(|p| [p.x, p.y, p.z].map(f64::to_bits))
+                .collect()
+        };
+        assert_eq!(bits(before), bits(after), "rim points");
+        assert!(after.points.iter().flatten().all(|x| x.is_finite()));
+        assert_eq!(sizes.len(), after.points.len());
+        assert!(sizes.iter().all(|s| s.is_finite() && *s > 0.0));
+    }
+
+    fn smallest_angles_deg(surface: &PatchSurface) -> Vec<f64> {
+        let mut angles: Vec<f64> = surface
+            .triangles
+            .iter()
+            .map(|t| {
+                let p = t.map(|v| surface.points[v as usize]);
+                (0..3)
+                    .map(|i| {
+                        (p[(i + 1) % 3] - p[i])
+                            .angle(&(p[(i + 2) % 3] - p[i]))
+                            .to_degrees()
+                    })
+                    .fold(f64::INFINITY, f64::min)
+            })
+            .collect();
+        angles.sort_by(f64::total_cmp);
+        angles
+    }
+
+    /// Lengths of the interior edges over their target.
+    fn relative_lengths(surface: &PatchSurface, sizes: &[f64]) -> Vec<f64> {
+        let mesh = connect(surface);
+        (0..mesh.halfedge_count())
+            .filter(|&h| mesh.opposite(h).is_some_and(|g| h < g))
+            .map(|h| [mesh.origin(h) as usize, mesh.target(h) as usize])
+            .map(|[a, b]| {
+                2.0 * (surface.points[a] - surface.points[b]).norm() / (sizes[a] + sizes[b])
+            })
+            .collect()
+    }
+
+    fn signed_areas(surface: &PatchSurface) -> impl Iterator<Item = f64> + '_ {
+        surface.triangles.iter().map(|t| {
+            let p = t.map(|v| surface.points[v as usize]);
+            0.5 * (p[1] - p[0]).cross(&(p[2] - p[0])).z
+        })
+    }
+
+    #[test]
+    fn round_discs_get_well_shaped_triangles_of_the_rims_size() {
+        for m in [36, 100, 250] {
+            let surface = fan_patch(disc_rim(m));
+            let (out, sizes) = refined(&surface);
+            let angles = smallest_angles_deg(&out);
+            assert!(
+                angles[angles.len() / 20] >= 38.0,
+                "{m}: {}",
+                angles[angles.len() / 20]
+            );
+            assert!(angles[0] > 20.0, "{m}: {}", angles[0]);
+            let lengths = relative_lengths(&out, &sizes);
+            let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
+            assert!((0.95..1.08).contains(&mean), "{m}: mean {mean}");
+            assert!(lengths.iter().all(|&l| l < 1.5), "{m}");
+            let expected = 0.18 * (m * m) as f64;
+            let count = out.triangles.len() as f64;
+            assert!((0.85..1.25).contains(&(count / expected)), "{m}: {count}");
+        }
+    }
+
+    #[test]
+    fn planar_patches_end_delaunay_and_tile_the_hole() {
+        for m in [7, 40, 120] {
+            let surface = fan_patch(disc_rim(m));
+            let (out, _) = refined(&surface);
+            assert_eq!(
+                count_violations(&connect(&out), &out.points, &|_, _| false),
+                0
+            );
+            let area: f64 = signed_areas(&surface).sum();
+            assert!((signed_areas(&out).sum::<f64>() / area - 1.0).abs() < 1e-12);
+            assert!(
+                signed_areas(&out).all(|a| a > 0.0),
+                "{m}: a triangle folded over"
+            );
+        }
+    }
+
+    #[test]
+    fn triangles_grow_in_proportion_to_large_rims() {
+        let per_edge = |m: usize| {
+            // Halving the rim again and again: the ears of a convex polygon, without a hub.
+            let mut triangles = Vec::new();
+            let mut ring: Vec<u32> = (0..m as u32).collect();
+            while ring.len() > 3 {
+                let pairs = ring
+                    .chunks(2)
+                    .zip(ring.iter().skip(2).step_by(2).chain(&ring[..1]));
+                triangles.extend(
+                    pairs
+                        .filter(|(p, _)| p.len() == 2)
+                        .map(|(p, &next)| [p[0], p[1], next]),
+                );
+                ring = ring.into_iter().step_by(2).collect();
+            }
+            if let [a, b, c] = ring[..] {
+                triangles.push([a, b, c]);
+            }
+            let surface = PatchSurface {
+                rim_count: m,
+                points: disc_rim(m),
+                triangles,
+            };
+            refined(&surface).0.triangles.len() as f64 / m as f64
+        };
+        let (small, middle, large) = (per_edge(1536), per_edge(3072), per_edge(6144));
+        assert!((9.0..16.0).contains(&large), "{large}");
+        assert!(small > middle && middle > large && large > 0.75 * small);
+    }
+
+    #[test]
+    fn the_smallest_holes_get_no_vertex_unless_their_size_asks_for_it() {
+        for m in [3, 4, 5] {
+            let surface = fan_patch(disc_rim(m));
+            assert_eq!(refined(&surface).0.triangles.len(), m - 2);
+            let mut fine = surface.clone();
+            let options = RefineOptions::default();
+            refine(&mut fine, &mut vec![0.3; m], &options, &|_, _| false).unwrap();
+            // A triangle alone has no interior edge to split.
+            assert_eq!(fine.points.len() > m, m > 3);
+        }
+        let (hexagon, _) = refined(&fan_patch(disc_rim(6)));
+        assert_eq!(hexagon.triangles.len(), 6);
+        assert!(hexagon.points[6].norm() < 1e-2);
+    }
+
+    #[test]
+    fn no_long_edge_ties_two_sides_of_the_rim_together() {
+        let rails: Vec<_> = (0..60)
+            .map(|k| {
+                (
+                    Vec3::new(k as f64, 0.0, 0.0),
+                    Vec3::new(k as f64, 1.35, 0.0),
+                )
+            })
+            .collect();
+        let (out, sizes) = refined(&strip_patch(&rails));
+        let mesh = connect(&out);
+        for (h, length) in (0..mesh.halfedge_count())
+            .filter(|&h| mesh.opposite(h).is_some_and(|g| h < g))
+            .zip(relative_lengths(&out, &sizes))
+        {
+            if (mesh.origin(h).max(mesh.target(h)) as usize) < out.rim_count {
+                assert!(length <= RefineOptions::default().chord_factor + 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn blocked_chords_never_appear() {
+        // Fine enough to keep chords, with every chord the fan does not start from blocked.
+        let n = 24;
+        let rim: Vec<_> = disc_rim(n)
+            .iter()
+            .map(|p| Vec3::new(p.x, 0.2 * p.y, 0.0))
+            .collect();
+        let surface = fan_patch(rim);
+        let blocked = |a: u32, b: u32| a != 0 && b != 0;
+        let (out, _, _) = refined_with(&surface, &RefineOptions::default(), &blocked);
+        let (old, new) = (connect(&surface), connect(&out));
+        for a in 0..n as u32 {
+            for b in 0..a {
+                assert!(
+                    !new.has_edge(a, b) || old.has_edge(a, b) || !blocked(a, b),
+                    "{a} {b}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_second_call_leaves_a_refined_patch_almost_alone() {
+        let (mut out, mut sizes) = refined(&fan_patch(disc_rim(100)));
+        let count = out.triangles.len();
+        let options = RefineOptions {
+            final_relaxations: 1,
+            ..RefineOptions::default()
+        };
+        for _ in 0..5 {
+            let before = out.clone();
+            let report = refine(&mut out, &mut sizes, &options, &|_, _| false).unwrap();
+            check_invariants(&before, &out, &sizes);
+            assert!(report.splits <= 2 && report.flips <= 10, "{report:?}");
+            assert_eq!(report.changed(), before.triangles != out.triangles);
+        }
+        assert!(out.triangles.len() <= count + 8);
+    }
+
+    #[test]
+    fn a_patch_that_was_bulged_is_refined_to_the_same_density_again() {
+        let (mut out, mut sizes) = refined(&fan_patch(disc_rim(60)));
+        let radius = out.points[0].norm();
+        for p in &mut out.points[60..] {
+            p.z = (radius * radius - p.xy().norm_squared()).max(0.0).sqrt();
+        }
+        let flat = out.clone();
+        let options = RefineOptions::default();
+        let report = refine(&mut out, &mut sizes, &options, &|_, _| false).unwrap();
+        check_invariants(&flat, &out, &sizes);
+        assert!(report.changed());
+        assert!(relative_lengths(&out, &sizes).iter().all(|&l| l < 1.5));
+        // A hemisphere has twice the area of its disc.
+        let growth = out.triangles.len() as f64 / flat.triangles.len() as f64;
+        assert!((1.5..2.6).contains(&growth), "{growth}");
+    }
+
+    #[test]
+    fn twisted_strips_are_refined_without_folds() {
+        let rails: Vec<_> = (0..150)
+            .map(|k| {
+                let angle = 0.04 * k as f64;
+                let (c, s) = (angle.cos(), angle.sin());
+                let rail = |r: f64| Vec3::new(r * c, r * s, 0.2 * k as f64);
+                (rail(2.0), rail(8.0))
+            })
+            .collect();
+        let (out, sizes) = refined(&strip_patch(&rails));
+        let mesh = connect(&out);
+        let normal = |h: u32| {
+            let p = out.triangles[h as usize / 3].map(|v| out.points[v as usize]);
+            (p[1] - p[0]).cross(&(p[2] - p[0])).normalize()
+        };
+        for h in 0..mesh.halfedge_count() {
+            if let Some(g) = mesh.opposite(h) {
+                assert!(normal(h).dot(&normal(g)) > 0.5);
+            }
+        }
+        assert!(relative_lengths(&out, &sizes).iter().all(|&l| l < 1.5));
+        assert!(smallest_angles_deg(&out)[out.triangles.len() / 20] > 25.0);
+    }
+
+    #[test]
+    fn a_limit_leaves_the_patch_as_it_was() {
+        let surface = fan_patch(disc_rim(50));
+        let (mut out, mut sizes) = (surface.clone(), vec![1.0; 50]);
+        let options = RefineOptions {
+            max_vertices: 100,
+            ..RefineOptions::default()
+        };
+        let error = refine(&mut out, &mut sizes, &options, &|_, _| false).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Limit);
+        assert_eq!((out, sizes), (surface.clone(), vec![1.0; 50]));
+        // Coincident rim vertices with a size far below any edge run into the limit too.
+        let (mut out, mut sizes) = (surface, vec![1e-9; 50]);
+        let options = RefineOptions {
+            max_vertices: 5000,
+            ..RefineOptions::default()
+        };
+        let error = refine(&mut out, &mut sizes, &options, &|_, _| false).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Limit);
+    }
+
+    #[test]
+    fn unusable_input_is_an_error() {
+        let surface = fan_patch(disc_rim(8));
+        let run = |surface: &PatchSurface, sizes: &[f64]| {
+            let options = RefineOptions::default();
+            refine(
+                &mut surface.clone(),
+                &mut sizes.to_vec(),
+                &options,
+                &|_, _| false,
+            )
+            .map_err(|e| e.kind())
+        };
+        assert_eq!(run(&surface, &[1.0; 7]), Err(ErrorKind::InvalidInput));
+        assert_eq!(run(&surface, &[0.0; 8]), Err(ErrorKind::InvalidInput));
+        let mut broken = surface.clone();
+        broken.points[3].y = f64::NAN;
+        assert_eq!(run(&broken, &[1.0; 8]), Err(ErrorKind::InvalidInput));
+        let mut broken = surface.clone();
+        broken.triangles.push([0, 1, 2]);
+        assert_eq!(run(&broken, &[1.0; 8]), Err(ErrorKind::Topology));
+    }
+
+    #[test]
+    fn scale_and_place_change_the_triangles_little_and_determinism_holds() {
+        let surface = fan_patch(disc_rim(80));
+        let (out, _) = refined(&surface);
+        assert_eq!(refined(&surface).0, out, "same input, same bits");
+        for scale in [2f64.powi(-30), 2f64.powi(40)] {
+            let mut scaled = surface.clone();
+            scaled.points.iter_mut().for_each(|p| *p *= scale);
+            assert_eq!(refined(&scaled).0.triangles, out.triangles, "{scale}");
+        }
+        let mut moved = surface.clone();
+        moved.points.iter_mut().for_each(|p| p.x += 1e6);
+        let ratio = refined(&moved).0.triangles.len() as f64 / out.triangles.len() as f64;
+        assert!((0.9..1.1).contains(&ratio), "{ratio}");
+    }
+
+    #[test]
+    fn collinear_and_needle_holes_end_with_finite_points() {
+        let line: Vec<_> = (0..40)
+            .map(|i| Vec3::new(i.min(40 - i) as f64, 0.0, 0.0))
+            .collect();
+        refined(&fan_patch(line));
+        let needle: Vec<_> = disc_rim(40)
+            .iter()
+            .map(|p| Vec3::new(p.x, 1e-9 * p.y, 0.0))
+            .collect();
+        refined(&fan_patch(needle));
+        let mut pairs = disc_rim(40);
+        for i in (0..40).step_by(2) {
+            pairs[i + 1] = pairs[i];
+        }
+        refined(&fan_patch(pairs));
+    }
+
+    #[test]
+    fn a_ring_between_two_loops_keeps_its_hole() {
+        let ring = |radius: f64| {
+            (0..48)
+                .map(move |i| TAU * i as f64 / 48.0)
+                .map(move |angle| {
+                    Vec3::new(
+                        radius * angle.cos(),
+                        radius * angle.sin(),
+                        0.3 * (3.0 * angle).sin(),
+                    )
+                })
+        };
+        let triangles = (0..48).flat_map(|i| {
+            let j = (i + 1) % 48;
+            [[i, j, 48 + i], [j, 48 + j, 48 + i]]
+        });
+        let surface = PatchSurface {
+            rim_count: 96,
+            points: ring(8.0).chain(ring(3.0)).collect(),
+            triangles: triangles.collect(),
+        };
+        let (out, _) = refined(&surface);
+        assert_eq!(connect(&out).euler(), 0);
+        assert!(out.points.len() > 96);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+        #[test]
+        fn random_fans_end_with_every_invariant_intact(
+            radii in prop::collection::vec(prop_oneof![0.05f64..1.0, Just(0.5), Just(0.0)], 3..50),
+            heights in prop::collection::vec(-0.2f64..0.2, 50),
+            twins in prop::collection::vec(any::<prop::sample::Index>(), 0..6),
+            grading in prop_oneof![Just(0.0), 0.05f64..0.4],
+            blocks in any::<u32>(),
+        ) {
+            let mut rim = star_rim(&radii);
+            for (p, z) in rim.iter_mut().zip(&heights) {
+                p.z = *z;
+            }
+            for twin in &twins {
+                let i = twin.index(rim.len());
+                rim[i] = rim[(i + 1) % rim.len()];
+            }
+            let surface = fan_patch(rim);
+            prop_assume!(rim_sizes(&surface, &[]).is_ok());
+            let options =
+                RefineOptions { grading, max_vertices: 20_000, ..RefineOptions::default() };
+            let mut sizes = rim_sizes(&surface, &[]).unwrap();
+            let mut out = surface.clone();
+            let blocked = |a: u32, b: u32| blocks.rotate_left(a * b + a + b) & 3 == 0;
+            match refine(&mut out, &mut sizes, &options, &blocked) {
+                Ok(_) => check_invariants(&surface, &out, &sizes),
+                Err(error) => {
+                    prop_assert_eq!(error.kind(), ErrorKind::Limit);
+                    prop_assert_eq!(out, surface);
+                }
+            }
+        }
+
+        #[test]
+        fn wildly_different_edge_lengths_end(
+            exponents in prop::collection::vec(-6i32..4, 4..30),
+        ) {
+            // A polygon whose sides vary over ten octaves.
+            let mut angle = 0.0;
+            let total: f64 = exponents.iter().map(|&e| 2f64.powi(e)).sum();
+            let rim = exponents.iter().map(|&e| {
+                angle += TAU * 2f64.powi(e) / total;
+                Vec3::new(angle.cos(), angle.sin(), 0.0)
+            });
+            let surface = fan_patch(rim.collect());
+            prop_assert_eq!(surface.triangles.clone(), fan(exponents.len()));
+            let (out, _) = refined(&surface);
+            prop_assert_eq!(count_violations(&connect(&out), &out.points, &|_, _| false), 0);
+        }
+    }
+}

@@ -11,7 +11,7 @@ use holefill::{
     TriMesh,
 };
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
@@ -48,7 +48,7 @@ pub(crate) fn run(args: &FillArgs) -> Result<Outcome, Failure> {
             write_seconds,
         );
         let text = report::fill(&facts, &report);
-        destination::write(path, |out| out.write_all(text.as_bytes()))?;
+        io::replace(path, |out| out.write_all(text.as_bytes())).map_err(file_failure)?;
     }
     if let Some(path) = &args.preview {
         draw(path, &mesh, before[1], &report)?;
@@ -151,7 +151,7 @@ fn fill(
     bar.finish_and_clear();
     result.map_err(|e: Error| match e.kind() {
         ErrorKind::InvalidInput => Failure::usage(e.to_string()),
-        _ => Failure::file(e.to_string()),
+        _ => file_failure(e),
     })
 }
 
@@ -176,7 +176,7 @@ fn write_mesh(
         file.vertex_attributes,
         file.face_attributes,
     ) = mesh.into_parts();
-    let notes = io::write(path, &file).map_err(|e| Failure::file(e.to_string()))?;
+    let notes = io::write(path, &file).map_err(file_failure)?;
     if !quiet {
         console::notes(&notes);
     }
@@ -223,5 +223,9 @@ fn draw(
         first_new,
         patches: &patches,
     });
-    destination::write(path, |mut out| preview::write_png(&picture, &mut out))
+    io::replace(path, |out| preview::write_png(&picture, out)).map_err(file_failure)
+}
+
+fn file_failure(error: Error) -> Failure {
+    Failure::file(error.to_string())
 }

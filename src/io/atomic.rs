@@ -15,7 +15,7 @@ const BUFFER_BYTES: usize = 1 << 20;
 ///
 /// # Errors
 /// [`ErrorKind::Io`] with the path or, when it is missing, the folder.
-pub(super) fn replace(
+pub fn replace(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
 ) -> Result<()> {

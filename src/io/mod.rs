@@ -16,6 +16,7 @@ mod polygons;
 mod stl;
 mod text;
 
+pub use atomic::replace;
 pub use ply::{PlyDetails, PlyElement, PlyEncoding};
 
 use crate::error::{Error, ErrorKind, Result};
@@ -135,6 +136,12 @@ impl Format {
             Self::Stl => stl::parse(bytes),
         }
     }
+}
+
+/// Whether the extension of `path` is that of a format which [`read`] and [`write`] know.
+#[must_use]
+pub fn is_known_extension(path: impl AsRef<Path>) -> bool {
+    Format::of(path.as_ref()).is_ok()
 }
 
 /// Reads the mesh file at `path`.

@@ -1,0 +1,231 @@
+//! `holefill fill`: reads a mesh, fills its holes, writes it.
+
+use crate::args::FillArgs;
+use crate::input::{LoadSeconds, Loaded, seconds_since};
+use crate::preview::Scene;
+use crate::report::FillFacts;
+use crate::{Failure, Outcome, console, destination, input, preview, report, table};
+use holefill::io::{self, MeshData};
+use holefill::{
+    BoundaryLoops, Error, ErrorKind, FillOptions, FillReport, HoleStatus, Progress, Selection,
+    TriMesh,
+};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::{IsTerminal, Write};
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::time::Instant;
+
+pub(crate) fn run(args: &FillArgs) -> Result<Outcome, Failure> {
+    check_destinations(args)?;
+    let options = options(args)?;
+    let selection = selection(args)?;
+
+    let Loaded {
+        mut mesh,
+        boundary,
+        file,
+        seconds,
+    } = input::load(&args.input, args.quiet)?;
+    // Before the work starts: what is asked for must exist.
+    selection
+        .reasons_to_keep(&boundary)
+        .map_err(|e| Failure::usage(e.to_string()))?;
+    let before = [mesh.positions().len(), mesh.triangles().len()];
+    let report = fill(&mut mesh, &boundary, &selection, &options, args.quiet)?;
+    let after = [mesh.positions().len(), mesh.triangles().len()];
+
+    let start = Instant::now();
+    let mesh = write_mesh(&args.output, mesh, file, args.quiet)?;
+    let write_seconds = seconds_since(start);
+
+    if let Some(path) = &args.report {
+        let facts = facts(
+            args,
+            [before, after],
+            seconds,
+            report.index_seconds,
+            write_seconds,
+        );
+        let text = report::fill(&facts, &report);
+        io::replace(path, |out| out.write_all(text.as_bytes())).map_err(file_failure)?;
+    }
+    if let Some(path) = &args.preview {
+        draw(path, &mesh, before[1], &report)?;
+    }
+    if !args.quiet {
+        console::print(&table::holes(&report))?;
+    }
+    let unfilled = report.count(HoleStatus::Failed) + report.count(HoleStatus::Cancelled);
+    if unfilled == 0 {
+        return Ok(Outcome::Complete);
+    }
+    console::message(&format!(
+        "{unfilled} of {} holes could not be filled",
+        report.holes.len()
+    ));
+    Ok(Outcome::SomeFailed)
+}
+
+/// Refuses destinations that cannot work, before minutes are spent.
+fn check_destinations(args: &FillArgs) -> Result<(), Failure> {
+    if !io::is_known_extension(&args.output) {
+        return Err(Failure::usage(format!(
+            "{}: unknown file type; the known extensions are .ply, .obj, .off and .stl",
+            args.output.display()
+        )));
+    }
+    let extra: Vec<&Path> = [&args.report, &args.preview]
+        .into_iter()
+        .flatten()
+        .map(|path| path.as_path())
+        .collect();
+    for (i, path) in extra.iter().enumerate() {
+        let others = [args.input.as_path(), args.output.as_path()];
+        let mut others = others.iter().chain(&extra[..i]);
+        if let Some(other) = others.find(|other| destination::is_same(path, other)) {
+            return Err(Failure::usage(format!(
+                "{} would overwrite {}",
+                path.display(),
+                other.display()
+            )));
+        }
+    }
+    for path in std::iter::once(args.output.as_path()).chain(extra) {
+        destination::check(path)?;
+    }
+    Ok(())
+}
+
+fn options(args: &FillArgs) -> Result<FillOptions, Failure> {
+    let mut options = FillOptions::default();
+    options.method = args.method;
+    options.seed = args.seed;
+    options.threads = args.threads;
+    for (key, value) in &args.set {
+        options
+            .set(key, value)
+            .map_err(|e| Failure::usage(e.to_string()))?;
+    }
+    Ok(options)
+}
+
+fn selection(args: &FillArgs) -> Result<Selection, Failure> {
+    let selection = Selection {
+        only: args.only.clone(),
+        keep: args.keep.clone(),
+        max_edges: args.max_edges,
+        max_perimeter: args.max_perimeter,
+        keep_largest: args.keep_largest,
+    };
+    // What is wrong with any mesh is found with an empty one, before the file is read.
+    let rules = Selection {
+        only: Vec::new(),
+        keep: Vec::new(),
+        ..selection.clone()
+    };
+    rules
+        .reasons_to_keep(&BoundaryLoops::default())
+        .map_err(|e| Failure::usage(e.to_string()))?;
+    Ok(selection)
+}
+
+fn fill(
+    mesh: &mut TriMesh,
+    boundary: &BoundaryLoops,
+    selection: &Selection,
+    options: &FillOptions,
+    quiet: bool,
+) -> Result<FillReport, Failure> {
+    let bar = if quiet || !std::io::stderr().is_terminal() {
+        ProgressBar::hidden()
+    } else {
+        progress_bar(boundary.loops.len())
+    };
+    let advance = |progress: Progress| {
+        bar.set_length(progress.holes_total as u64);
+        bar.set_position(progress.holes_done as u64);
+        ControlFlow::Continue(())
+    };
+    let result = holefill::fill_holes(mesh, boundary, selection, options, Some(&advance));
+    bar.finish_and_clear();
+    result.map_err(|e: Error| match e.kind() {
+        ErrorKind::InvalidInput => Failure::usage(e.to_string()),
+        _ => file_failure(e),
+    })
+}
+
+fn progress_bar(holes: usize) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(holes as u64), ProgressDrawTarget::stderr());
+    match ProgressStyle::with_template("filling [{bar:40}] {pos}/{len} holes, {eta} left") {
+        Ok(style) => bar.with_style(style.progress_chars("=> ")),
+        Err(_) => bar,
+    }
+}
+
+/// Writes the mesh in the form of the file that it came from, and gives it back.
+fn write_mesh(
+    path: &Path,
+    mesh: TriMesh,
+    mut file: MeshData,
+    quiet: bool,
+) -> Result<MeshData, Failure> {
+    (
+        file.positions,
+        file.triangles,
+        file.vertex_attributes,
+        file.face_attributes,
+    ) = mesh.into_parts();
+    let notes = io::write(path, &file).map_err(file_failure)?;
+    if !quiet {
+        console::notes(&notes);
+    }
+    Ok(file)
+}
+
+fn facts(
+    args: &FillArgs,
+    [input, output]: [[usize; 2]; 2],
+    load: LoadSeconds,
+    index_seconds: f64,
+    write_seconds: f64,
+) -> FillFacts {
+    let available = || std::thread::available_parallelism().map_or(1, usize::from);
+    FillFacts {
+        input,
+        output,
+        read_seconds: load.read,
+        build_seconds: load.build + load.loops + index_seconds,
+        write_seconds,
+        threads: if args.threads == 0 {
+            available()
+        } else {
+            args.threads
+        },
+        seed: args.seed,
+    }
+}
+
+fn draw(
+    path: &Path,
+    mesh: &MeshData,
+    first_new: usize,
+    report: &FillReport,
+) -> Result<(), Failure> {
+    let patches: Vec<_> = report
+        .holes
+        .iter()
+        .map(|h| h.new_triangles.clone())
+        .collect();
+    let picture = preview::draw(&Scene {
+        positions: &mesh.positions,
+        triangles: &mesh.triangles,
+        first_new,
+        patches: &patches,
+    });
+    io::replace(path, |out| preview::write_png(&picture, out)).map_err(file_failure)
+}
+
+fn file_failure(error: Error) -> Failure {
+    Failure::file(error.to_string())
+}

@@ -1,0 +1,76 @@
+//! The command line program `holefill`: fills the holes of a mesh file, and says what it did.
+//!
+//! Exit status: 0 when everything that was asked for is done, 1 when a file cannot be read or
+//! written, 2 for bad usage, 3 when some holes could not be filled. Tables and JSON go to standard
+//! output, everything else to standard error.
+
+mod args;
+mod compare;
+mod console;
+mod demo;
+mod destination;
+mod fill;
+mod input;
+mod inspect;
+mod model;
+mod preview;
+mod raster;
+mod report;
+mod table;
+mod view;
+
+use args::Command;
+use std::process::ExitCode;
+
+/// How a command ended when it ran to its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    /// Everything that was asked for is done.
+    Complete,
+    /// Some holes could not be filled.
+    SomeFailed,
+}
+
+/// Why a command could not run to its end.
+#[derive(Debug)]
+enum Failure {
+    /// The command line asks for something that does not exist or makes no sense.
+    Usage(String),
+    /// A file cannot be read or written.
+    File(String),
+}
+
+impl Failure {
+    fn usage(message: impl Into<String>) -> Self {
+        Self::Usage(message.into())
+    }
+
+    fn file(message: impl Into<String>) -> Self {
+        Self::File(message.into())
+    }
+}
+
+fn main() -> ExitCode {
+    let command = match args::parse() {
+        Ok(command) => command,
+        Err(error) => return args::report_error(&error),
+    };
+    let result = match &command {
+        Command::Fill(args) => fill::run(args),
+        Command::Inspect(args) => inspect::run(args),
+        Command::Compare(args) => compare::run(args),
+        Command::Demo(args) => demo::run(args),
+    };
+    match result {
+        Ok(Outcome::Complete) => ExitCode::SUCCESS,
+        Ok(Outcome::SomeFailed) => ExitCode::from(3),
+        Err(Failure::Usage(message)) => {
+            console::message(&message);
+            ExitCode::from(2)
+        }
+        Err(Failure::File(message)) => {
+            console::message(&message);
+            ExitCode::from(1)
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! The JSON forms of what the tables show.
+
+use crate::table::area;
+use holefill::{BoundaryLoop, FillReport, HoleReport, MeshDefects};
+use serde_json::{Value, json};
+
+/// What a fill did, besides the holes themselves.
+pub(crate) struct FillFacts {
+    /// Vertices and triangles of the input.
+    pub(crate) input: [usize; 2],
+    /// Vertices and triangles of the output.
+    pub(crate) output: [usize; 2],
+    /// Seconds to read the file.
+    pub(crate) read_seconds: f64,
+    /// Seconds to build the connectivity, the loops and the index.
+    pub(crate) build_seconds: f64,
+    /// Seconds to write the output.
+    pub(crate) write_seconds: f64,
+    /// Threads that filled.
+    pub(crate) threads: usize,
+    /// The seed that was asked for.
+    pub(crate) seed: u64,
+}
+
+/// The report of `holefill fill --report`.
+pub(crate) fn fill(facts: &FillFacts, report: &FillReport) -> String {
+    let counts =
+        |[vertices, triangles]: [usize; 2]| json!({"vertices": vertices, "triangles": triangles});
+    pretty(&json!({
+        "input": counts(facts.input),
+        "output": counts(facts.output),
+        "seconds": {
+            "read": facts.read_seconds,
+            "build": facts.build_seconds,
+            "fill": report.fill_seconds,
+            "write": facts.write_seconds,
+        },
+        "threads": facts.threads,
+        "seed": facts.seed,
+        "holes": report.holes.iter().map(hole).collect::<Vec<Value>>(),
+    }))
+}
+
+fn hole(hole: &HoleReport) -> Value {
+    let tried = hole
+        .tried
+        .iter()
+        .map(|attempt| json!({"method": attempt.method.name(), "reason": attempt.reason}))
+        .collect::<Vec<Value>>();
+    json!({
+        "id": hole.id,
+        "edge": hole.edge,
+        "edges": hole.edges,
+        "perimeter": hole.perimeter,
+        "class": hole.class.name(),
+        "status": hole.status.name(),
+        "reason": hole.reason,
+        "method": hole.method.map(holefill::Method::name),
+        "tried": tried,
+        "new_vertices": hole.new_vertices.len(),
+        "new_triangles": hole.new_triangles.len(),
+        "self_intersections": hole.self_intersections,
+        "min_angle_deg": hole.min_angle.map(f64::to_degrees),
+        "seconds": hole.seconds,
+    })
+}
+
+/// A boundary loop as `holefill inspect --json` lists it.
+pub(crate) fn boundary_loop(l: &BoundaryLoop) -> Value {
+    json!({
+        "id": l.id,
+        "class": l.class.name(),
+        "edges": l.edge_count(),
+        "perimeter": l.perimeter,
+        "area": area(l),
+        "planarity": l.planarity,
+        "edge": l.edge(),
+    })
+}
+
+/// The number of defects of each kind, with the first places.
+pub(crate) fn defects(defects: &MeshDefects) -> Value {
+    json!({
+        "nonmanifold_edges": kind(defects.nonmanifold_edges.count, &defects.nonmanifold_edges.examples),
+        "inconsistent_edges": kind(defects.inconsistent_edges.count, &defects.inconsistent_edges.examples),
+        "degenerate_faces": kind(defects.degenerate_faces.count, &defects.degenerate_faces.examples),
+        "duplicate_faces": kind(defects.duplicate_faces.count, &defects.duplicate_faces.examples),
+        "isolated_vertices": kind(defects.isolated_vertices.count, &defects.isolated_vertices.examples),
+    })
+}
+
+fn kind<T: Copy + Into<Value>>(count: usize, examples: &[T]) -> Value {
+    let examples: Vec<Value> = examples.iter().map(|&place| place.into()).collect();
+    json!({"count": count, "examples": examples})
+}
+
+/// JSON text that ends with a line break.
+pub(crate) fn pretty(value: &Value) -> String {
+    format!("{value:#}\n")
+}

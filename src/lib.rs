@@ -46,4 +46,3 @@ pub use mesh::attributes::{
 };
 pub use mesh::defects::{Defect, MeshDefects};
 pub use mesh::trimesh::TriMesh;
-pub use quality::deviation;

@@ -46,3 +46,4 @@ pub use mesh::attributes::{
 };
 pub use mesh::defects::{Defect, MeshDefects};
 pub use mesh::trimesh::TriMesh;
+pub use quality::deviation;

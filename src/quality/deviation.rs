@@ -30,63 +30,97 @@ const R2: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_2];
 
 /// Distances from one surface to another, in the unit of the coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct OneWay {
+pub struct OneWay {
     /// Mean over the area.
-    pub(crate) mean: f64,
+    pub mean: f64,
     /// Root mean square over the area.
-    pub(crate) rms: f64,
+    pub rms: f64,
     /// Largest over samples and vertices.
-    pub(crate) max: f64,
+    pub max: f64,
 }
 
 /// Angles between the normal at a sample of the first surface and the normal of the closest face
 /// of the second, in degrees, 0 to 180.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct NormalAngles {
+pub struct NormalAngles {
     /// Mean over the area.
-    pub(crate) mean_deg: f64,
+    pub mean_deg: f64,
     /// 95 % of the area deviate less.
-    pub(crate) p95_deg: f64,
+    pub p95_deg: f64,
     /// Largest.
-    pub(crate) max_deg: f64,
+    pub max_deg: f64,
 }
 
 /// Distances of the new vertices, without unit: divided by the largest absolute coordinate among
 /// them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct PointErrors {
+pub struct PointErrors {
     /// Average point error (APE): the mean.
-    pub(crate) ape: f64,
+    pub ape: f64,
     /// Maximum point error (MPE).
-    pub(crate) mpe: f64,
+    pub mpe: f64,
     /// Number of vertices it was taken over.
-    pub(crate) vertices: usize,
+    pub vertices: usize,
 }
 
 /// How far two surfaces are apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Deviation {
+pub struct Deviation {
     /// From the first surface to the second.
-    pub(crate) a_to_b: OneWay,
+    pub a_to_b: OneWay,
     /// From the second surface to the first.
-    pub(crate) b_to_a: OneWay,
+    pub b_to_a: OneWay,
     /// Root of the mean of both mean squares, in the unit of the coordinates.
-    pub(crate) symmetric_rms: f64,
+    pub symmetric_rms: f64,
     /// Larger of both maxima, in the unit of the coordinates.
-    pub(crate) hausdorff: f64,
+    pub hausdorff: f64,
     /// Normals of the first surface against the second; `None` when no sample has both.
-    pub(crate) normals: Option<NormalAngles>,
+    pub normals: Option<NormalAngles>,
     /// Errors of the vertices of the first surface that the second does not have; `None` when there
     /// are none, or all of them are at the origin.
-    pub(crate) point_errors: Option<PointErrors>,
+    pub point_errors: Option<PointErrors>,
 }
 
-/// Measures `a` against `b`; for the papers' figures `a` is the filled mesh, `b` the original.
+/// Measures the surface `a` against the surface `b`, each given by its positions and triangles.
+///
+/// For the papers' figures `a` is the filled mesh and `b` the original.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidInput`] when a surface has no triangle or a triangle's coordinate is not
-/// finite.
-pub(crate) fn compare(a: Surface<'_>, b: Surface<'_>) -> Result<Deviation> {
+/// [`ErrorKind::InvalidInput`] when a surface has no triangle, a triangle names a position that does
+/// not exist, or a triangle's coordinate is not finite.
+pub fn compare(
+    a_positions: &[[f64; 3]],
+    a_triangles: &[[u32; 3]],
+    b_positions: &[[f64; 3]],
+    b_triangles: &[[u32; 3]],
+) -> Result<Deviation> {
+    let surfaces = [
+        ("first", a_positions, a_triangles),
+        ("second", b_positions, b_triangles),
+    ];
+    for (name, positions, triangles) in surfaces {
+        let is_missing = |v: &u32| *v as usize >= positions.len();
+        if let Some(face) = triangles.iter().position(|t| t.iter().any(is_missing)) {
+            return Err(Error::new(
+                ErrorKind::InvalidInput,
+                format!("triangle {face} of the {name} surface names a vertex that does not exist"),
+            ));
+        }
+    }
+    compare_surfaces(
+        Surface {
+            points: bytemuck::cast_slice(a_positions),
+            triangles: a_triangles,
+        },
+        Surface {
+            points: bytemuck::cast_slice(b_positions),
+            triangles: b_triangles,
+        },
+    )
+}
+
+/// As [`compare`], for indices that are known to exist.
+fn compare_surfaces(a: Surface<'_>, b: Surface<'_>) -> Result<Deviation> {
     for (name, surface) in [("first", a), ("second", b)] {
         if surface.triangles.is_empty() {
             return Err(Error::new(
@@ -308,9 +342,9 @@ mod tests {
     #[test]
     fn a_surface_does_not_deviate_from_itself_however_it_is_cut() {
         let (coarse, fine) = (square(3, 1.0, 0.25), square(7, 1.0, 0.25));
-        let same = compare(surface(&fine), surface(&fine)).expect("sound");
+        let same = compare_surfaces(surface(&fine), surface(&fine)).expect("sound");
         assert!(same.hausdorff < 1e-15 && same.point_errors.is_none());
-        let recut = compare(surface(&fine), surface(&coarse)).expect("sound");
+        let recut = compare_surfaces(surface(&fine), surface(&coarse)).expect("sound");
         assert!(recut.hausdorff < 1e-15 && recut.symmetric_rms < 1e-15);
         let errors = recut.point_errors.expect("there are new vertices");
         assert_eq!(errors.vertices, 8 * 8 - 4);
@@ -320,7 +354,7 @@ mod tests {
     #[test]
     fn parallel_squares_are_their_gap_apart() {
         let (a, b) = (square(4, 1.0, 0.0), square(5, 1.0, 0.5));
-        let d = compare(surface(&a), surface(&b)).expect("sound");
+        let d = compare_surfaces(surface(&a), surface(&b)).expect("sound");
         for x in [
             d.a_to_b.mean,
             d.a_to_b.rms,
@@ -343,7 +377,7 @@ mod tests {
         for p in &mut points {
             p.x *= 2.0;
         }
-        let d = compare(surface(&small), surface(&(points, triangles))).expect("sound");
+        let d = compare_surfaces(surface(&small), surface(&(points, triangles))).expect("sound");
         assert!(d.a_to_b.max < 1e-15);
         assert!(near(d.b_to_a.mean, 0.25, 1e-4), "{d:?}");
         assert!(near(d.b_to_a.rms, (1.0f64 / 6.0).sqrt(), 1e-4), "{d:?}");
@@ -357,7 +391,7 @@ mod tests {
         let mut raised = base.clone();
         raised.0.push(Vec3::new(2.0, 2.0, 3.0));
         raised.1 = vec![[0, 2, 4], [2, 3, 4], [3, 1, 4], [1, 0, 4]];
-        let d = compare(surface(&raised), surface(&base)).expect("sound");
+        let d = compare_surfaces(surface(&raised), surface(&base)).expect("sound");
         let errors = d.point_errors.expect("one new vertex");
         assert_eq!((errors.ape, errors.mpe, errors.vertices), (1.0, 1.0, 1));
         assert_eq!(d.a_to_b.max, 3.0);
@@ -372,13 +406,15 @@ mod tests {
         }
         for (a, b) in [(&third, &rounded), (&rounded, &third)] {
             assert_eq!(
-                compare(surface(a), surface(b)).expect("sound").point_errors,
+                compare_surfaces(surface(a), surface(b))
+                    .expect("sound")
+                    .point_errors,
                 None
             );
         }
         let mut moved = third.clone();
         moved.0[5].z += 1e-12;
-        let d = compare(surface(&moved), surface(&third)).expect("sound");
+        let d = compare_surfaces(surface(&moved), surface(&third)).expect("sound");
         assert_eq!(d.point_errors.map(|e| e.vertices), Some(1));
     }
 
@@ -394,7 +430,7 @@ mod tests {
             (points.into_iter().map(turn).collect(), triangles)
         };
         for (other, expected) in [(&under, 180.0), (&tilted, 30.0)] {
-            let d = compare(surface(&floor), surface(other)).expect("sound");
+            let d = compare_surfaces(surface(&floor), surface(other)).expect("sound");
             let normals = d.normals.expect("there are normals");
             for x in [normals.mean_deg, normals.p95_deg, normals.max_deg] {
                 assert!(near(x, expected, 1e-6), "{normals:?}");
@@ -448,19 +484,31 @@ mod tests {
         for bad in [empty, broken] {
             for (a, b) in [(bad, line), (line, bad)] {
                 assert_eq!(
-                    compare(a, b).map_err(|e| e.kind()),
+                    compare_surfaces(a, b).map_err(|e| e.kind()),
                     Err(ErrorKind::InvalidInput)
                 );
             }
         }
         // Distances overflow here; what matters is that nothing panics.
         let far = [Vec3::repeat(-f64::MAX), Vec3::repeat(f64::MAX), Vec3::x()];
-        let _ = compare(
+        let _ = compare_surfaces(
             Surface {
                 points: &far,
                 triangles: &[[0, 1, 2]],
             },
             line,
         );
+    }
+
+    #[test]
+    fn a_triangle_without_its_vertices_is_refused() {
+        let points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let (good, bad) = ([[0, 1, 2]], [[0, 1, 3]]);
+        assert!(compare(&points, &good, &points, &good).is_ok());
+        for (a, b, name) in [(&bad, &good, "first"), (&good, &bad, "second")] {
+            let error = compare(&points, a, &points, b).unwrap_err();
+            assert_eq!(error.kind(), ErrorKind::InvalidInput);
+            assert!(error.message().contains(name), "{error}");
+        }
     }
 }

@@ -4,7 +4,7 @@
 //! what it judges.
 
 pub(crate) mod closest;
-pub(crate) mod deviation;
+pub mod deviation;
 pub(crate) mod intersect;
 pub(crate) mod self_intersection;
 pub(crate) mod shape;

@@ -23,7 +23,8 @@ const NONE: u32 = u32::MAX;
 /// Triangles with their adjacency; see the module documentation.
 #[derive(Clone, Debug)]
 pub(super) struct Connectivity {
-    triangles: Vec<[u32; 3]>,
+    /// The vertex at the start of each half-edge.
+    origins: Vec<u32>,
     opposite: Vec<u32>,
     /// A half-edge out of each vertex with a closed fan, `NONE` at all others.
     start: Vec<Halfedge>,
@@ -89,7 +90,7 @@ impl Connectivity {
             rim_count,
             rim_edges: Vec::new(),
             rim_start: vec![0; rim_count + 1],
-            triangles,
+            origins: triangles.into_flattened(),
         };
         mesh.pair_halfedges()?;
         mesh.list_rim_edges()?;
@@ -126,7 +127,7 @@ impl Connectivity {
                         self.opposite[g as usize] = h;
                         self.opposite[h as usize] = g;
                         if self.apex(g) == self.apex(h) {
-                            let t = self.triangles[g as usize / 3];
+                            let t = self.triangles()[g as usize / 3];
                             return Err(topology(format!("patch triangle {t:?} occurs twice")));
                         }
                     }
@@ -189,11 +190,7 @@ impl Connectivity {
     }
 
     pub(super) fn triangles(&self) -> &[[u32; 3]] {
-        &self.triangles
-    }
-
-    pub(super) fn into_triangles(self) -> Vec<[u32; 3]> {
-        self.triangles
+        self.origins.as_chunks().0
     }
 
     pub(super) fn vertex_count(&self) -> usize {
@@ -215,7 +212,7 @@ impl Connectivity {
 
     /// The vertex that `h` runs from.
     pub(super) fn origin(&self, h: Halfedge) -> u32 {
-        self.triangles[h as usize / 3][h as usize % 3]
+        self.origins[h as usize]
     }
 
     /// The vertex that `h` runs to.
@@ -304,8 +301,8 @@ impl Connectivity {
             self.opposite[b_to_c as usize],
             self.opposite[a_to_d as usize],
         );
-        self.triangles[h as usize / 3][b_to_c as usize % 3] = d;
-        self.triangles[g as usize / 3][a_to_d as usize % 3] = c;
+        self.origins[b_to_c as usize] = d;
+        self.origins[a_to_d as usize] = c;
         self.link(h, outside_ad);
         self.link(g, outside_bc);
         self.link(b_to_c, a_to_d);
@@ -337,10 +334,9 @@ impl Connectivity {
         );
         let v = self.start.len() as u32;
         let (vb, bv) = (self.halfedge_count(), self.halfedge_count() + 3);
-        self.triangles[h as usize / 3][v_to_c as usize % 3] = v;
-        self.triangles[g as usize / 3][g as usize % 3] = v;
-        self.triangles.push([v, b, c]);
-        self.triangles.push([b, v, d]);
+        self.origins[v_to_c as usize] = v;
+        self.origins[g as usize] = v;
+        self.origins.extend([v, b, c, b, v, d]);
         self.opposite.extend([NONE; 6]);
         self.link(vb, bv);
         self.link(vb + 1, outside_bc);
@@ -358,22 +354,22 @@ impl Connectivity {
         let name = |v: u32| renamed[v as usize];
         let largest = |t: &[u32; 3]| name(t[0]).max(name(t[1])).max(name(t[2])) as usize;
         let mut place = vec![0u32; self.start.len() + 1];
-        for t in &self.triangles {
+        for t in self.triangles() {
             place[largest(t) + 1] += 1;
         }
         for v in 1..place.len() {
             place[v] += place[v - 1];
         }
-        let mut moved = Vec::with_capacity(self.triangles.len());
-        for t in &self.triangles {
+        let mut moved = Vec::with_capacity(self.triangles().len());
+        for t in self.triangles() {
             let slot = &mut place[largest(t)];
             moved.push(*slot);
             *slot += 1;
         }
         let carry = |h: Halfedge| 3 * moved[h as usize / 3] + h % 3;
-        let mut triangles = vec![[0; 3]; self.triangles.len()];
+        let mut triangles = vec![[0; 3]; self.triangles().len()];
         let mut opposite = vec![NONE; self.opposite.len()];
-        for (t, corners) in self.triangles.iter().enumerate() {
+        for (t, corners) in self.triangles().iter().enumerate() {
             triangles[moved[t] as usize] = corners.map(name);
         }
         for (h, &o) in self.opposite.iter().enumerate() {
@@ -386,7 +382,7 @@ impl Connectivity {
         for h in &mut self.rim_edges {
             *h = carry(*h);
         }
-        (self.triangles, self.opposite, self.start) = (triangles, opposite, start);
+        (self.origins, self.opposite, self.start) = (triangles.into_flattened(), opposite, start);
     }
 }
 
@@ -422,7 +418,7 @@ mod tests {
     }
 
     fn has_edge_slowly(mesh: &Connectivity, a: u32, b: u32) -> bool {
-        mesh.triangles
+        mesh.triangles()
             .iter()
             .any(|t| a != b && t.contains(&a) && t.contains(&b))
     }

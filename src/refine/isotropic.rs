@@ -103,8 +103,9 @@ impl RefineReport {
 /// `sizes` holds the target edge length of each rim vertex or of each vertex, and of each vertex
 /// afterwards. `blocked(a, b)` says that the mesh round the patch has an edge between the rim
 /// vertices `a` and `b`, which therefore must not appear in the patch. Meant to be called again
-/// after the points moved: a patch that is still fine costs one look at every edge and the final
-/// relaxations.
+/// after the points moved: a patch that is still fine costs a few looks at every edge and the final
+/// relaxations. Rim vertices keep their numbers; interior ones do too unless a patch of more than
+/// some thousand vertices grows by a third, and triangles are reordered freely.
 ///
 /// # Errors
 /// `Topology` or `InvalidInput` for a patch that is not manifold, points that are not finite or sizes
@@ -140,7 +141,7 @@ pub(crate) fn refine(
     };
     refiner.run()?;
     surface.points = refiner.points;
-    surface.triangles = refiner.mesh.into_triangles();
+    surface.triangles = refiner.mesh.triangles().to_vec();
     *sizes = refiner.sizes.into_sizes();
     Ok(refiner.report)
 }

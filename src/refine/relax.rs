@@ -23,10 +23,11 @@ const FOLD_MARGIN: f64 = 0.1;
 
 /// Relaxes vertices of one patch; owns the one-ring buffer so that it is allocated once.
 pub(super) struct Relaxer {
-    /// The one-ring in order.
+    /// The one-ring in order; its first vertex is repeated at the end.
     ring: Vec<Neighbour>,
 }
 
+#[derive(Clone, Copy)]
 struct Neighbour {
     vertex: u32,
     /// Position relative to the vertex in the middle.
@@ -68,6 +69,7 @@ impl Relaxer {
                 _ => break,
             }
         }
+        self.ring.push(self.ring[0]);
         let size = sizes.at(v);
         let step = self.limited_step(size);
         let target = origin + step;
@@ -86,9 +88,7 @@ impl Relaxer {
 
     /// The outer edges of the incident triangles.
     fn edges(&self) -> impl Iterator<Item = (&Neighbour, &Neighbour)> {
-        self.ring
-            .iter()
-            .zip(self.ring.iter().skip(1).chain(self.ring.first()))
+        self.ring.windows(2).map(|pair| (&pair[0], &pair[1]))
     }
 
     fn limited_step(&self, size: f64) -> Vec3 {
@@ -108,7 +108,7 @@ impl Relaxer {
         let mut step = centroid / weight;
         step -= up * step.dot(&up);
         // Seen along `up`, each area changes linearly with the way gone: area - t * loss.
-        let floor = FOLD_MARGIN * normal.norm() / self.ring.len() as f64;
+        let floor = FOLD_MARGIN * normal.norm() / (self.ring.len() - 1) as f64;
         let mut way = STEP;
         for (b, c) in self.edges() {
             let loss = step.cross(&(c.offset - b.offset)).dot(&up);

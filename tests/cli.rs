@@ -466,6 +466,7 @@ fn bad_usage_is_told_before_anything_is_read_or_written() {
         ("fill in.off -o out.off --max-perimeter -1", "perimeter"),
         ("fill in.off -o out.off --max-perimeter NaN", "perimeter"),
         ("fill in.off -o out.off --threads many", "--threads"),
+        ("fill in.off -o out.off --threads 2000", "1024"),
         ("fill in.off -o out.off --seed -3", "--seed"),
         ("fill in.off -o out.off --unknown", "--unknown"),
         ("fill in.off -o out.off --report in.off", "overwrite"),

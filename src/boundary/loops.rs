@@ -2,6 +2,7 @@
 
 use super::classify::{LoopClass, classify};
 use crate::math::Vec3;
+use crate::math::aabb::Aabb;
 use crate::math::plane::fit_plane;
 use crate::mesh::connectivity::{BOUNDARY, origin, target};
 use crate::mesh::rings::{FanEnd, walk_fan};
@@ -33,9 +34,8 @@ pub struct BoundaryLoop {
     pub(crate) halfedges: Vec<u32>,
     /// For an island the loop whose hole it lies in.
     pub(crate) host: Option<usize>,
-    /// Corners of the bounding box.
-    pub(crate) low: Vec3,
-    pub(crate) high: Vec3,
+    /// The bounding box.
+    pub(crate) bounds: Aabb,
 }
 
 impl BoundaryLoop {
@@ -69,8 +69,8 @@ impl BoundaryLoops {
     /// piece is listed with [`LoopClass::OpenChain`].
     ///
     /// # Complexity
-    /// One sweep over the halfedges, then linear in the number of boundary edges and the valence of
-    /// their vertices.
+    /// O(b log b) for `b` boundary edges, plus the triangles at their vertices and those of islands; no pass
+    /// over the mesh.
     #[must_use]
     pub fn find(mesh: &TriMesh) -> Self {
         let boundary = mesh.connectivity().boundary_halfedges();
@@ -218,13 +218,11 @@ fn measure(mesh: &TriMesh, id: usize, chain: &Chain) -> BoundaryLoop {
     let points: Vec<Vec3> = vertices.iter().map(|&v| mesh.point(v)).collect();
     let mut perimeter = 0.0;
     let mut area = Vec3::zeros();
-    let (mut low, mut high) = (points[0], points[0]);
+    let bounds = Aabb::around(&points);
     for (i, p) in points.iter().enumerate() {
         let q = points[(i + 1) % points.len()];
         perimeter += (q - p).norm();
         area += (p - points[0]).cross(&(q - points[0])) / 2.0;
-        low = low.inf(p);
-        high = high.sup(p);
     }
     let spread = fit_plane(&points).map_or([0.0; 3], |plane| plane.spread);
     let total = spread.iter().map(|s| s * s).sum::<f64>().sqrt();
@@ -236,7 +234,7 @@ fn measure(mesh: &TriMesh, id: usize, chain: &Chain) -> BoundaryLoop {
         id,
         perimeter,
         vector_area: area.into(),
-        diameter: (high - low).norm(),
+        diameter: (bounds.hi - bounds.lo).norm(),
         planarity: if total > 0.0 { spread[2] / total } else { 0.0 },
         class: match (chain.is_closed, is_oriented) {
             (false, _) => LoopClass::OpenChain,
@@ -246,7 +244,6 @@ fn measure(mesh: &TriMesh, id: usize, chain: &Chain) -> BoundaryLoop {
         vertices,
         halfedges,
         host: None,
-        low,
-        high,
+        bounds,
     }
 }

@@ -1,7 +1,7 @@
 //! A static tree of boxes, for searches by box and by distance.
 //!
 //! Boxes are sorted by the Morton code of their centre and grouped by eight, level by level, into an
-//! implicit tree: no pointers, 31 bytes a box. They are kept in single precision relative to the box of
+//! implicit tree: no pointers, 32 bytes a box. They are kept in single precision relative to the box of
 //! all and rounded outwards, so that a query never misses a box; it may return one that is apart by a
 //! single-precision rounding.
 //!
@@ -42,25 +42,81 @@ impl PackedBox {
     fn centre(&self) -> [f32; 3] {
         std::array::from_fn(|k| 0.5 * self.lo[k] + 0.5 * self.hi[k])
     }
+}
 
-    fn overlaps(&self, other: &Self) -> bool {
-        // Without short cuts: six comparisons are cheaper than one mispredicted branch.
-        let mut apart = false;
-        for k in 0..3 {
-            apart |= self.lo[k] > other.hi[k];
-            apart |= other.lo[k] > self.hi[k];
+/// Siblings in the tree, coordinate by coordinate so that all are compared at once.
+#[derive(Clone, Copy, Debug)]
+struct Siblings {
+    lo: [[f32; FANOUT]; 3],
+    hi: [[f32; FANOUT]; 3],
+}
+
+impl Siblings {
+    /// At most [`FANOUT`] boxes; places left over hold empty boxes.
+    fn of(boxes: impl Iterator<Item = PackedBox>) -> Self {
+        let mut siblings = Self {
+            lo: [[f32::INFINITY; FANOUT]; 3],
+            hi: [[f32::NEG_INFINITY; FANOUT]; 3],
+        };
+        for (place, b) in boxes.enumerate() {
+            for k in 0..3 {
+                siblings.lo[k][place] = b.lo[k];
+                siblings.hi[k][place] = b.hi[k];
+            }
         }
-        !apart
+        siblings
     }
 
-    fn distance_sq(&self, p: &Vec3) -> f64 {
+    fn union(&self) -> PackedBox {
+        PackedBox {
+            lo: self.lo.map(|x| x.into_iter().fold(f32::INFINITY, f32::min)),
+            hi: self
+                .hi
+                .map(|x| x.into_iter().fold(f32::NEG_INFINITY, f32::max)),
+        }
+    }
+
+    /// Which siblings overlap `query`.
+    fn overlapping(&self, query: &PackedBox) -> Marks {
+        let Self { lo, hi } = self;
+        // Whole words and no short cuts, so that the comparisons are made side by side.
+        let mut apart = [0_u32; FANOUT];
+        for (place, apart) in apart.iter_mut().enumerate() {
+            let is_apart = (lo[0][place] > query.hi[0])
+                | (lo[1][place] > query.hi[1])
+                | (lo[2][place] > query.hi[2])
+                | (query.lo[0] > hi[0][place])
+                | (query.lo[1] > hi[1][place])
+                | (query.lo[2] > hi[2][place]);
+            *apart = u32::from(!is_apart) << place;
+        }
+        Marks(apart.into_iter().fold(0, |marks, mark| marks | mark))
+    }
+
+    /// Squared distance of `p` from the box at `place`.
+    fn distance_sq(&self, place: usize, p: &Vec3) -> f64 {
         let outside = |k: usize| {
-            (f64::from(self.lo[k]) - p[k])
-                .max(p[k] - f64::from(self.hi[k]))
+            (f64::from(self.lo[k][place]) - p[k])
+                .max(p[k] - f64::from(self.hi[k][place]))
                 .max(0.0)
         };
         let d: [f64; 3] = std::array::from_fn(outside);
         d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
+    }
+}
+
+/// A set of places among siblings: one bit each.
+#[derive(Clone, Copy, Debug)]
+struct Marks(u32);
+
+impl Iterator for Marks {
+    type Item = usize;
+
+    fn next(&mut self) -> Option<usize> {
+        let lowest = self.0.trailing_zeros();
+        // Without the lowest one.
+        self.0 &= self.0.wrapping_sub(1);
+        (lowest < u32::BITS).then_some(lowest as usize)
     }
 }
 
@@ -113,9 +169,10 @@ pub(crate) struct BoxTree {
     frame: Frame,
     /// Ids of the boxes along the Morton curve.
     order: Vec<u32>,
-    /// Boxes of `order`, then of each group of [`FANOUT`] of them, and so on up to one root.
-    boxes: Vec<PackedBox>,
-    /// Where each level starts in `boxes`, and after the last its end.
+    /// The boxes of `order` in groups of [`FANOUT`], then the boxes of these groups, and so on up to one
+    /// root.
+    siblings: Vec<Siblings>,
+    /// Where each level starts in `siblings`, and after the last its end.
     levels: Vec<usize>,
 }
 
@@ -145,30 +202,31 @@ impl BoxTree {
             .map(|k| (k & id_mask) as u32)
             .collect();
 
-        let mut boxes = Vec::with_capacity(count + count / (FANOUT - 1) + FANOUT);
-        boxes.par_extend(
+        let groups = count.div_ceil(FANOUT);
+        let mut siblings = Vec::with_capacity(groups + groups / (FANOUT - 1) + FANOUT);
+        siblings.par_extend(
             order
-                .par_iter()
-                .with_min_len(GRAIN)
-                .map(|&id| unsorted[id as usize]),
-        );
-        drop(unsorted);
-        let mut levels = vec![0, count];
-        let mut start = 0;
-        while boxes.len() - start > 1 {
-            let parents: Vec<PackedBox> = boxes[start..]
                 .par_chunks(FANOUT)
                 .with_min_len(GRAIN / FANOUT)
-                .map(|group| group.iter().fold(PackedBox::EMPTY, PackedBox::union))
+                .map(|ids| Siblings::of(ids.iter().map(|&id| unsorted[id as usize]))),
+        );
+        drop(unsorted);
+        let mut levels = vec![0, siblings.len()];
+        let mut start = 0;
+        while siblings.len() - start > 1 {
+            let parents: Vec<Siblings> = siblings[start..]
+                .par_chunks(FANOUT)
+                .with_min_len(GRAIN / FANOUT)
+                .map(|group| Siblings::of(group.iter().map(Siblings::union)))
                 .collect();
-            start = boxes.len();
-            boxes.extend_from_slice(&parents);
-            levels.push(boxes.len());
+            start = siblings.len();
+            siblings.extend_from_slice(&parents);
+            levels.push(siblings.len());
         }
         Self {
             frame,
             order,
-            boxes,
+            siblings,
             levels,
         }
     }
@@ -183,31 +241,59 @@ impl BoxTree {
     ///
     /// Boxes that are apart by no more than a single-precision rounding may be included.
     pub(crate) fn overlapping(&self, query: &Aabb, found: &mut Vec<u32>) {
+        self.overlapping_at_most(usize::MAX, query, found);
+    }
+
+    /// As [`overlapping`](Self::overlapping), but gives up with `false` when there are more than `limit`.
+    pub(crate) fn overlapping_at_most(
+        &self,
+        limit: usize,
+        query: &Aabb,
+        found: &mut Vec<u32>,
+    ) -> bool {
         found.clear();
-        if self.order.is_empty() {
-            return;
+        if let Some(root) = self.root_level() {
+            self.collect(root, 0, &self.frame.pack(query), limit, found);
         }
-        let query = self.frame.pack(query);
-        self.collect(self.levels.len() - 2, 0, &query, found);
         found.sort_unstable();
+        found.len() <= limit
     }
 
-    fn collect(&self, level: usize, first: usize, query: &PackedBox, found: &mut Vec<u32>) {
-        for node in self.group(level, first) {
-            if !self.boxes[self.levels[level] + node].overlaps(query) {
-                continue;
+    fn collect(
+        &self,
+        level: usize,
+        group: usize,
+        query: &PackedBox,
+        limit: usize,
+        found: &mut Vec<u32>,
+    ) {
+        for place in self.group(level, group).overlapping(query) {
+            if found.len() > limit {
+                return;
             }
+            let child = group * FANOUT + place;
             match level {
-                0 => found.push(self.order[node]),
-                _ => self.collect(level - 1, node * FANOUT, query, found),
+                0 => found.extend(self.order.get(child)),
+                _ if self.is_group(level - 1, child) => {
+                    self.collect(level - 1, child, query, limit, found);
+                }
+                _ => {}
             }
         }
     }
 
-    /// The siblings from `first` on, as offsets within their level.
-    fn group(&self, level: usize, first: usize) -> std::ops::Range<usize> {
-        let size = self.levels[level + 1] - self.levels[level];
-        first..(first + FANOUT).min(size)
+    /// The level of the root, counted from the boxes up; `None` for an empty tree.
+    fn root_level(&self) -> Option<usize> {
+        (!self.order.is_empty()).then(|| self.levels.len() - 2)
+    }
+
+    fn group(&self, level: usize, group: usize) -> &Siblings {
+        &self.siblings[self.levels[level] + group]
+    }
+
+    /// Whether the level has so many groups: the last group above may have places left over.
+    fn is_group(&self, level: usize, group: usize) -> bool {
+        self.levels[level] + group < self.levels[level + 1]
     }
 
     /// Calls `visit` with the id of every box that may be nearer to `p` than what was found, near ones
@@ -216,16 +302,15 @@ impl BoxTree {
     ///
     /// `p` must be finite.
     pub(crate) fn search_near(&self, p: &Vec3, visit: impl FnMut(u32) -> f64) {
-        if self.order.is_empty() {
-            return;
+        if let Some(root) = self.root_level() {
+            let mut search = NearSearch {
+                tree: self,
+                p: self.frame.map(p),
+                visit,
+                bound: f64::INFINITY,
+            };
+            search.descend(root, 0);
         }
-        let mut search = NearSearch {
-            tree: self,
-            p: self.frame.map(p),
-            visit,
-            bound: f64::INFINITY,
-        };
-        search.descend(self.levels.len() - 2, 0);
     }
 }
 
@@ -239,29 +324,35 @@ struct NearSearch<'a, F> {
 }
 
 impl<F: FnMut(u32) -> f64> NearSearch<'_, F> {
-    fn descend(&mut self, level: usize, first: usize) {
+    fn descend(&mut self, level: usize, group: usize) {
         let tree = self.tree;
+        let siblings = tree.group(level, group);
+        let is_taken = |child: usize| match level {
+            0 => child < tree.order.len(),
+            _ => tree.is_group(level - 1, child),
+        };
         let mut near = [(0.0, 0); FANOUT];
         let mut count = 0;
-        for node in tree.group(level, first) {
-            let distance_sq = tree.boxes[tree.levels[level] + node].distance_sq(&self.p);
+        let children = group * FANOUT..(group + 1) * FANOUT;
+        for (place, child) in children.enumerate().filter(|&(_, child)| is_taken(child)) {
+            let distance_sq = siblings.distance_sq(place, &self.p);
             if distance_sq <= self.bound {
-                near[count] = (distance_sq, node);
+                near[count] = (distance_sq, child);
                 count += 1;
             }
         }
         let near = &mut near[..count];
         near.sort_unstable_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
-        for &(distance_sq, node) in near.iter() {
+        for &(distance_sq, child) in near.iter() {
             if distance_sq > self.bound {
                 break;
             }
             match level {
                 0 => {
                     let scale = tree.frame.scale;
-                    self.bound = (self.visit)(tree.order[node]) * scale * scale;
+                    self.bound = (self.visit)(tree.order[child]) * scale * scale;
                 }
-                _ => self.descend(level - 1, node * FANOUT),
+                _ => self.descend(level - 1, child),
             }
         }
     }

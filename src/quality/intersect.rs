@@ -81,7 +81,7 @@ fn has_area(normal: &Vec3, extent: f64) -> bool {
 }
 
 /// Longest side of the bounding box.
-fn extent([a, b, c]: &[Vec3; 3]) -> f64 {
+pub(super) fn extent([a, b, c]: &[Vec3; 3]) -> f64 {
     (a.sup(b).sup(c) - a.inf(b).inf(c)).max()
 }
 

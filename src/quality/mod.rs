@@ -7,6 +7,7 @@ pub(crate) mod closest;
 pub mod deviation;
 pub(crate) mod intersect;
 pub(crate) mod self_intersection;
+mod separation;
 pub(crate) mod shape;
 pub(crate) mod spatial;
 pub(crate) mod topology;

@@ -1,7 +1,7 @@
 //! Counts the improper intersections of a patch with itself and with the mesh it was made for.
 //!
-//! Small patches are swept along their longest axis; large ones get a [`BoxTree`] of their own
-//! and are searched in parallel. The mesh is asked through its index, triangle by triangle.
+//! Small patches are swept along their longest axis; large ones get a [`BoxTree`] of their own and are
+//! searched piece by piece in parallel. The mesh is asked through its index. Most pairs with overlapping boxes are neighbours, which a [`Separator`] tells apart at once.
 //!
 //! Complexity: O(m log n + k) for m patch triangles, n mesh faces and k pairs of overlapping boxes.
 //! What counts is said in [`intersects_improperly`]. Each pair of triangles counts once; pairs
@@ -11,18 +11,22 @@
 use super::{
     Surface,
     intersect::{COPLANAR, intersects_improperly},
+    separation::Separator,
     spatial::FaceIndex,
 };
 use crate::math::Vec3;
 use crate::math::aabb::Aabb;
 use crate::math::box_tree::BoxTree;
 use rayon::prelude::*;
+use std::ops::Range;
 
-/// Patch triangles up to which sweeping beats building a tree.
-const SWEEP_MAX: usize = 256;
+/// Patch triangles searched as one piece of parallel work; up to this many are swept, which beats building
+/// a tree.
+const PIECE: usize = 256;
 
-/// Patch triangles searched as one piece of parallel work.
-const CHUNK: usize = 256;
+/// A sweep passes every mesh face near the patch; beyond this many for each of the patch's triangles, the
+/// tree is searched for one triangle after the other instead.
+const NEAR_PER_TRIANGLE: usize = 8;
 
 /// Pairs that are reported by name.
 const EXAMPLES: usize = 8;
@@ -98,28 +102,25 @@ pub(crate) fn count(
     patch: AppendedPatch<'_>,
     search: Search,
 ) -> SelfIntersections {
-    let corners: Vec<[Vec3; 3]> = patch
-        .triangles
-        .iter()
-        .map(|triangle| {
-            triangle.map(|v| match (v as usize).checked_sub(mesh.points.len()) {
-                Some(new) => patch.points[new],
-                None => mesh.points[v as usize],
-            })
+    let corners_of = |triangle: &[u32; 3]| {
+        triangle.map(|v| match (v as usize).checked_sub(mesh.points.len()) {
+            Some(new) => patch.points[new],
+            None => mesh.points[v as usize],
         })
-        .collect();
+    };
+    let corners: Vec<[Vec3; 3]> = patch.triangles.iter().map(corners_of).collect();
     let boxes: Vec<Aabb> = corners.iter().map(grown_box).collect();
     let task = Task {
         mesh,
         faces,
+        triangles: patch.triangles,
         corners: &corners,
         boxes: &boxes,
-        search,
     };
-    if corners.len() <= SWEEP_MAX {
+    if corners.len() <= PIECE {
         task.sweep()
     } else {
-        task.search_in_parallel()
+        task.search_in_parallel(search)
     }
 }
 
@@ -136,100 +137,135 @@ fn grown_box(triangle: &[Vec3; 3]) -> Aabb {
 struct Task<'a> {
     mesh: Surface<'a>,
     faces: &'a FaceIndex,
-    /// Patch triangles and their boxes.
+    /// Patch triangles with their corners and boxes.
+    triangles: &'a [[u32; 3]],
     corners: &'a [[Vec3; 3]],
     boxes: &'a [Aabb],
-    search: Search,
 }
 
 impl Task<'_> {
-    fn is_done(&self, tally: &SelfIntersections) -> bool {
-        self.search == Search::First && tally.total() > 0
+    /// The planes of the triangles in `piece`.
+    fn separators(&self, piece: Range<usize>) -> Vec<Separator> {
+        piece
+            .map(|i| Separator::new(self.triangles[i], self.corners[i]))
+            .collect()
     }
 
+    /// Adds patch triangles `i`, with its separator, and `j` to `pairs` if they intersect improperly.
+    fn try_patch(&self, i: usize, separator: &Separator, j: usize, pairs: &mut Vec<Pair>) {
+        if !separator.clears(&self.triangles[j], &self.corners[j])
+            && intersects_improperly(&self.corners[i], &self.corners[j])
+        {
+            pairs.push(Pair::WithinPatch(i.min(j) as u32, i.max(j) as u32));
+        }
+    }
+
+    /// Adds patch triangle `i`, with its separator, and `face` to `pairs` if they intersect improperly.
+    fn try_mesh(&self, i: usize, separator: &Separator, face: u32, pairs: &mut Vec<Pair>) {
+        let corners = self.mesh.corners(face as usize);
+        if !separator.clears(&self.mesh.triangles[face as usize], &corners)
+            && intersects_improperly(&self.corners[i], &corners)
+        {
+            pairs.push(Pair::WithMesh(i as u32, face));
+        }
+    }
+
+    /// Searches a patch of one piece along the axis of its largest extent.
     fn sweep(&self) -> SelfIntersections {
         let whole = self.boxes.iter().fold(Aabb::empty(), |all, b| all.union(b));
         let axis = (whole.hi - whole.lo).imax();
-        let mut order: Vec<usize> = (0..self.boxes.len()).collect();
-        order.sort_unstable_by(|&i, &j| {
-            self.boxes[i].lo[axis]
-                .total_cmp(&self.boxes[j].lo[axis])
-                .then(i.cmp(&j))
-        });
-        let mut partners = vec![Vec::new(); self.boxes.len()];
-        for (k, &i) in order.iter().enumerate() {
-            for &j in &order[k + 1..] {
-                if self.boxes[j].lo[axis] > self.boxes[i].hi[axis] {
+        let mut swept: Vec<(Aabb, usize)> = self.boxes.iter().copied().zip(0..).collect();
+        swept.sort_unstable_by(|(a, i), (b, j)| a.lo[axis].total_cmp(&b.lo[axis]).then(i.cmp(j)));
+        let separators = self.separators(0..self.boxes.len());
+        let mut pairs = Vec::new();
+        for (k, (a, i)) in swept.iter().enumerate() {
+            for (b, j) in &swept[k + 1..] {
+                if b.lo[axis] > a.hi[axis] {
                     break;
                 }
-                if self.boxes[i].overlaps(&self.boxes[j])
-                    && intersects_improperly(&self.corners[i], &self.corners[j])
-                {
-                    partners[i.min(j)].push(i.max(j) as u32);
+                if a.overlaps(b) {
+                    self.try_patch(*i, &separators[*i], *j, &mut pairs);
                 }
             }
         }
-        let mut tally = SelfIntersections::default();
-        let mut found = Vec::new();
-        for (i, partners) in partners.iter_mut().enumerate() {
-            partners.sort_unstable();
-            for &j in partners.iter() {
-                tally.add(Pair::WithinPatch(i as u32, j));
-            }
-            if self.is_done(&tally) {
-                break;
-            }
-            self.against_mesh(i, &mut found, &mut tally);
-            if self.is_done(&tally) {
-                break;
-            }
-        }
-        tally
-    }
-
-    fn against_mesh(&self, i: usize, found: &mut Vec<u32>, tally: &mut SelfIntersections) {
-        self.faces.overlapping(&self.boxes[i], found);
-        for &face in found.iter() {
-            if intersects_improperly(&self.corners[i], &self.mesh.corners(face as usize)) {
-                tally.add(Pair::WithMesh(i as u32, face));
-            }
-        }
-    }
-
-    fn search_in_parallel(&self) -> SelfIntersections {
-        let own = BoxTree::build(self.boxes.len(), |i| self.boxes[i]);
-        let chunk_count = self.boxes.len().div_ceil(CHUNK);
-        let chunks = (0..chunk_count).into_par_iter().map(|c| {
-            let mut tally = SelfIntersections::default();
-            let mut found = Vec::new();
-            for i in c * CHUNK..((c + 1) * CHUNK).min(self.boxes.len()) {
-                own.overlapping(&self.boxes[i], &mut found);
-                for &j in found.iter().filter(|&&j| j as usize > i) {
-                    if intersects_improperly(&self.corners[i], &self.corners[j as usize]) {
-                        tally.add(Pair::WithinPatch(i as u32, j));
+        let mut near = Vec::new();
+        let limit = NEAR_PER_TRIANGLE * self.boxes.len();
+        if self
+            .faces
+            .tree()
+            .overlapping_at_most(limit, &whole, &mut near)
+        {
+            let widths = self.boxes.iter().map(|b| b.hi[axis] - b.lo[axis]);
+            let widest = widths.fold(0.0, f64::max);
+            for face in near {
+                let a = Aabb::around(&self.mesh.corners(face as usize));
+                let first = swept.partition_point(|(b, _)| b.lo[axis] < a.lo[axis] - widest);
+                for (b, i) in &swept[first..] {
+                    if b.lo[axis] > a.hi[axis] {
+                        break;
+                    }
+                    if a.overlaps(b) {
+                        self.try_mesh(*i, &separators[*i], face, &mut pairs);
                     }
                 }
-                if !self.is_done(&tally) {
-                    self.against_mesh(i, &mut found, &mut tally);
-                }
-                if self.is_done(&tally) {
-                    break;
+            }
+        } else {
+            self.search_mesh(0..self.boxes.len(), &separators, &mut pairs);
+        }
+        tally(pairs)
+    }
+
+    /// Searches the mesh near the triangles of `piece`.
+    fn search_mesh(&self, piece: Range<usize>, separators: &[Separator], pairs: &mut Vec<Pair>) {
+        let mut found = Vec::new();
+        for (i, separator) in piece.zip(separators) {
+            self.faces.overlapping(&self.boxes[i], &mut found);
+            for &face in &found {
+                self.try_mesh(i, separator, face, pairs);
+            }
+        }
+    }
+
+    fn search_in_parallel(&self, search: Search) -> SelfIntersections {
+        let own = BoxTree::build(self.boxes.len(), |i| self.boxes[i]);
+        let pieces = (0..self.boxes.len().div_ceil(PIECE)).into_par_iter();
+        let tallies = pieces.map(|p| {
+            let piece = p * PIECE..((p + 1) * PIECE).min(self.boxes.len());
+            let separators = self.separators(piece.clone());
+            let mut pairs = Vec::new();
+            let mut found = Vec::new();
+            for (i, separator) in piece.clone().zip(&separators) {
+                own.overlapping(&self.boxes[i], &mut found);
+                for &j in found.iter().filter(|&&j| j as usize > i) {
+                    self.try_patch(i, separator, j as usize, &mut pairs);
                 }
             }
-            tally
+            self.search_mesh(piece, &separators, &mut pairs);
+            tally(pairs)
         });
-        match self.search {
+        match search {
             Search::All => {
-                let tallies: Vec<_> = chunks.collect();
+                let tallies: Vec<_> = tallies.collect();
                 tallies
                     .into_iter()
                     .fold(SelfIntersections::default(), SelfIntersections::merge)
             }
-            Search::First => chunks
-                .find_first(|tally| self.is_done(tally))
+            Search::First => tallies
+                .find_first(|tally| tally.total() > 0)
                 .unwrap_or_default(),
         }
     }
+}
+
+/// Counts pairs, by the patch triangle.
+fn tally(mut pairs: Vec<Pair>) -> SelfIntersections {
+    pairs.sort_unstable_by_key(|&pair| match pair {
+        Pair::WithinPatch(i, j) => (i, 0, j),
+        Pair::WithMesh(i, face) => (i, 1, face),
+    });
+    let mut tally = SelfIntersections::default();
+    pairs.into_iter().for_each(|pair| tally.add(pair));
+    tally
 }
 
 #[cfg(test)]

@@ -48,6 +48,11 @@ impl FaceIndex {
         self.tree.overlapping(query, found);
     }
 
+    /// The tree of the faces' boxes.
+    pub(crate) fn tree(&self) -> &BoxTree {
+        &self.tree
+    }
+
     /// The face of `surface`, which must be the one indexed, nearest to `p`; `None` when there is
     /// no face or `p` is not finite.
     ///

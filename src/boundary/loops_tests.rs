@@ -38,6 +38,7 @@ fn check_loops(mesh: &TriMesh) {
             );
             assert_eq!(l.vertices.len(), l.edge_count());
             assert_eq!(l.halfedges[0], lowest[id]);
+            assert_eq!(l.edge(), [l.vertices[0], l.vertices[1]]);
         } else {
             assert_eq!(l.vertices.len(), l.edge_count() + 1);
         }
@@ -58,8 +59,7 @@ fn check_loops(mesh: &TriMesh) {
             LoopClass::NotOriented => assert!(!is_oriented),
             _ => assert!(is_oriented),
         }
-        let [a, b] = l.edge();
-        assert_eq!(boundary.with_edge([a, b]).map(|l| l.id), Some(id));
+        assert_eq!(boundary.with_edge(l.edge()).map(|l| l.id), Some(id));
         assert_eq!(l.host.is_some(), l.class == LoopClass::Island);
         assert!(l.perimeter >= 0.0 && l.diameter >= 0.0 && (0.0..0.6).contains(&l.planarity));
     }

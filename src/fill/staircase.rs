@@ -62,7 +62,13 @@ impl<'a> Staircase<'a> {
         let Refined { mut surface, .. } = self.refined()?;
         let mut solver = SpdSolver::default();
         let around = &self.hole.surroundings;
-        fair(&mut surface, around, order.min(Order::Two), Weights::Cotangent, &mut solver)?;
+        fair(
+            &mut surface,
+            around,
+            order.min(Order::Two),
+            Weights::Cotangent,
+            &mut solver,
+        )?;
         if order == Order::Three {
             fair(&mut surface, around, order, Weights::Cotangent, &mut solver)?;
         }
@@ -127,7 +133,13 @@ impl<'a> Staircase<'a> {
             self.refine(&mut surface, &mut sizes)?;
             let around = &self.hole.surroundings;
             let mut solver = SpdSolver::default();
-            fair(&mut surface, around, Order::Two, Weights::Uniform, &mut solver)?;
+            fair(
+                &mut surface,
+                around,
+                Order::Two,
+                Weights::Uniform,
+                &mut solver,
+            )?;
             for size in &mut sizes {
                 *size /= COARSENING;
             }

@@ -514,12 +514,13 @@ pub(crate) fn sheets_that_share_two_vertices() -> Arrays {
 /// Every kind of mesh, good and bad.
 pub(crate) fn fixtures() -> Vec<Fixture> {
     let holed = sheet_with_hole();
-    let rim = |mesh: &Arrays, x: f64, y: f64| {
+    let vertex = |mesh: &Arrays, x: f64, y: f64| {
         let found = mesh.positions.iter().position(|p| p[0] == x && p[1] == y);
         found.expect("a vertex of the sheet") as u32
     };
-    let (a, b) = (rim(&holed, 4.0, 5.0), rim(&holed, 4.0, 6.0));
-    let (c, d) = (rim(&holed, 1.0, 1.0), rim(&holed, 2.0, 1.0));
+    let (a, b) = (vertex(&holed, 4.0, 5.0), vertex(&holed, 3.0, 5.0));
+    let (c, d) = (vertex(&holed, 1.0, 1.0), vertex(&holed, 2.0, 1.0));
+    // A third triangle at an edge.
     let flap = |a, b| {
         let tip = holed.positions.len() as u32;
         holed

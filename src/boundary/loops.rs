@@ -3,7 +3,7 @@
 use super::classify::{LoopClass, classify};
 use crate::math::Vec3;
 use crate::math::plane::fit_plane;
-use crate::mesh::connectivity::{BOUNDARY, origin, target};
+use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD, origin, previous, target};
 use crate::mesh::rings::{FanEnd, walk_fan};
 use crate::mesh::trimesh::TriMesh;
 use std::collections::BTreeMap;
@@ -81,9 +81,10 @@ pub struct BoundaryLoops {
 impl BoundaryLoops {
     /// Finds all boundary loops of `mesh`.
     ///
-    /// The boundary is followed through the triangles round each vertex. Where it visits a vertex
-    /// twice it is cut there, so that every loop is simple: two holes that touch in a vertex are two
-    /// loops. Where it runs into an edge with three or more triangles it cannot be followed; such a
+    /// The boundary is followed through the triangles round each vertex; where two fans of triangles meet
+    /// in a vertex, it goes on with the other fan, so that a hole is followed and not a sheet. Where it
+    /// visits a vertex twice it is cut there, so that every loop is simple: two holes that touch in a
+    /// vertex are two loops. Where it runs into an edge with three or more triangles it cannot be followed; such a
     /// piece is listed with [`LoopClass::OpenChain`].
     ///
     /// # Complexity
@@ -164,6 +165,35 @@ fn other_end(mesh: &TriMesh, halfedge: u32, vertex: u32) -> u32 {
     }
 }
 
+/// The boundary edge with which the boundary goes on at `vertex` after the edge of `halfedge`; `None` when
+/// it runs into an edge with more than two triangles.
+///
+/// That is the other end of the triangles round the vertex. But where exactly two fans of triangles meet
+/// in the vertex, it is the end of the other fan, so that the hole between them is followed.
+fn next_boundary_edge(mesh: &TriMesh, vertex: u32, halfedge: u32) -> Option<u32> {
+    let connectivity = mesh.connectivity();
+    let end = match walk_fan(mesh, vertex, halfedge, |_| {}) {
+        FanEnd::At(end) if connectivity.twin(end) == BOUNDARY => end,
+        _ => return None,
+    };
+    let mut ends = [Vec::new(), Vec::new()];
+    for o in connectivity.outgoing(vertex) {
+        for (side, h) in [(0, o.halfedge), (1, previous(o.halfedge))] {
+            match connectivity.twin(h) {
+                BOUNDARY => ends[side].push(h),
+                NON_MANIFOLD => return Some(end),
+                _ => {}
+            }
+        }
+    }
+    let side = usize::from(!ends[0].contains(&end));
+    let is_oriented = ends[side].contains(&end) && ends[1 - side].contains(&halfedge);
+    match ends[side][..] {
+        [a, b] if is_oriented && ends[1 - side].len() == 2 => Some(if a == end { b } else { a }),
+        _ => Some(end),
+    }
+}
+
 /// Follows the boundary from the halfedge `start` forwards, and backwards too if it is not closed.
 fn follow(mesh: &TriMesh, start: u32) -> Chain {
     let from = origin(mesh.triangles(), start);
@@ -174,19 +204,17 @@ fn follow(mesh: &TriMesh, start: u32) -> Chain {
     let leave = |halfedge: u32, vertex: u32, edges: &mut Vec<ChainEdge>| {
         let (mut halfedge, mut vertex) = (halfedge, vertex);
         loop {
-            match walk_fan(mesh, vertex, halfedge, |_| {}) {
-                FanEnd::At(h) if mesh.connectivity().twin(h) == BOUNDARY => {
-                    if h == start {
-                        return true;
-                    }
-                    edges.push(ChainEdge {
-                        halfedge: h,
-                        from: vertex,
-                    });
-                    (halfedge, vertex) = (h, other_end(mesh, h, vertex));
-                }
-                _ => return false,
+            let Some(h) = next_boundary_edge(mesh, vertex, halfedge) else {
+                return false;
+            };
+            if h == start {
+                return true;
             }
+            edges.push(ChainEdge {
+                halfedge: h,
+                from: vertex,
+            });
+            (halfedge, vertex) = (h, other_end(mesh, h, vertex));
         }
     };
     let is_closed = leave(start, other_end(mesh, start, from), &mut edges);

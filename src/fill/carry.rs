@@ -60,7 +60,11 @@ impl CarriedAttributes {
 pub(crate) fn carry(mesh: &TriMesh, hole: &Hole, surface: &PatchSurface) -> CarriedAttributes {
     let mut carried = CarriedAttributes::default();
     let vertex_columns = mesh.vertex_attributes().columns();
-    carried.vertex_sources = nearest_rim_vertices(hole, surface);
+    carried.vertex_sources = if vertex_columns.is_empty() {
+        vec![0; surface.points.len() - surface.rim_count]
+    } else {
+        nearest_rim_vertices(hole, surface)
+    };
     carried.face_sources = if mesh.face_attributes().columns().is_empty() {
         vec![0; surface.triangles.len()]
     } else {
@@ -100,14 +104,15 @@ pub(crate) fn carry(mesh: &TriMesh, hole: &Hole, surface: &PatchSurface) -> Carr
         .map(|c| (c, at_rim(c)))
         .filter(|(_, values)| values.iter().all(|v| v.is_finite()))
         .collect();
+    let largest = |values: &[f64]| values.iter().fold(f64::MIN_POSITIVE, |a, v| a.max(v.abs()));
     for columns in known.chunks(3) {
+        // In units of the largest value, so that no sum overflows.
         let mut rim_values = vec![Vec3::zeros(); hole.rim.len()];
         for (k, (_, values)) in columns.iter().enumerate() {
             for (row, &value) in rim_values.iter_mut().zip(values) {
-                row[k] = value;
+                row[k] = value / largest(values);
             }
         }
-        // Numbers too large to compute with are copied too.
         let Ok(inside) = extend_from_rim(surface, &rim_values, &mut solver) else {
             continue;
         };
@@ -115,7 +120,10 @@ pub(crate) fn carry(mesh: &TriMesh, hole: &Hole, surface: &PatchSurface) -> Carr
             // Rounding may leave the rim's range, which the harmonic function itself does not.
             let low = values.iter().copied().fold(f64::INFINITY, f64::min);
             let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            let inside = inside.iter().map(|v| v[k].clamp(low, high)).collect();
+            let inside = inside
+                .iter()
+                .map(|v| (v[k] * largest(values)).clamp(low, high))
+                .collect();
             carried.vertex_values.push((*c, inside));
         }
     }

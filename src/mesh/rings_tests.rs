@@ -53,14 +53,15 @@ fn rings_are_those_of_a_breadth_first_search() {
             let mut found = rings.faces.clone();
             found.sort_unstable();
             assert_eq!(found, expected);
-            for (&v, &found) in &rings.levels {
+            for &(v, found) in &rings.levels {
                 assert_eq!(found, level[v as usize], "vertex {v}");
             }
             let used: BTreeSet<u32> = found
                 .iter()
                 .flat_map(|&(f, _)| mesh.triangles()[f as usize])
                 .collect();
-            assert!(used.iter().eq(rings.levels.keys()));
+            assert!(used.iter().eq(rings.levels.iter().map(|(v, _)| v)));
+            assert!(rings.faces.is_sorted_by_key(|&(f, ring)| (ring, f)));
         }
     }
 }

@@ -483,32 +483,18 @@ pub(crate) fn tongue() -> Arrays {
     })
 }
 
-/// Two sheets that touch in the vertices 0 and 1, each a fan of six triangles: their rims would both be
-/// closed along the chord between these two.
-pub(crate) fn sheets_that_share_two_vertices() -> Arrays {
-    let mut out = Arrays::new(vec![[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]], Vec::new());
-    for side in [-1.0, 1.0] {
-        let first = out.positions.len() as u32;
-        for p in [
-            [-0.6, -0.3],
-            [0.6, -0.3],
-            [0.6, 0.3],
-            [-0.6, 0.3],
-            [0.0, 0.0],
-        ] {
-            let height = if p == [0.0, 0.0] { 0.6 } else { 0.2 };
-            out.positions.push([p[0], p[1], side * height]);
-        }
-        let rim = [0, first, first + 1, 1, first + 2, first + 3];
-        for k in 0..6 {
-            let mut t = [rim[k], rim[(k + 1) % 6], first + 4];
-            if side < 0.0 {
-                t.swap(0, 1);
-            }
-            out.triangles.push(t);
-        }
-    }
-    out
+/// Two holes that touch in the vertices 0 and 1: each would best be closed along the chord between them,
+/// which only one can have.
+pub(crate) fn holes_that_share_two_vertices() -> Arrays {
+    let positions = vec![
+        [-0.5, 0.0, 0.0],
+        [0.5, 0.0, 0.0],
+        [0.0, -1.0, 1.0],
+        [0.0, 1.0, 1.0],
+        [0.0, -1.0, -1.0],
+        [0.0, 1.0, -1.0],
+    ];
+    Arrays::new(positions, vec![[0, 4, 2], [4, 1, 2], [0, 3, 5], [3, 1, 5]])
 }
 
 /// Every kind of mesh, good and bad.
@@ -624,9 +610,9 @@ pub(crate) fn fixtures() -> Vec<Fixture> {
         fixture("fan of 5000", flat_fan, &["outer-rim"]),
         fixture("open fan of 5000", fan(5000, false), &["outer-rim"]),
         fixture(
-            "sheets that share two vertices",
-            sheets_that_share_two_vertices(),
-            &["outer-rim", "outer-rim"],
+            "holes that share two vertices",
+            holes_that_share_two_vertices(),
+            &["touching", "touching"],
         ),
     ]
 }

@@ -7,8 +7,8 @@ use crate::mesh::trimesh::TriMesh;
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// A loop counts as an outer rim when the vector area along its side of the surface is at least this share
-/// of what a flat sheet has.
+/// A loop counts as an outer rim when the mean cosine between its vector area and the normals along it is
+/// above this; a flat sheet has 1.
 const OUTER_RIM_ALIGNMENT: f64 = 0.5;
 /// A sheet with more triangles than this per squared rim edge is not taken for an island.
 const ISLAND_FACES_PER_SQUARED_EDGE: usize = 8;
@@ -99,16 +99,20 @@ fn mark_touching(loops: &mut [BoundaryLoop]) {
     }
 }
 
-/// The cosine between the vector area and the mean normal along the loop: near 1 when the sheet lies
-/// inside the loop, near -1 when it lies outside, that is round a hole.
+/// The mean cosine between the vector area and the normals of the triangles along the loop, by area: near
+/// 1 when a flat sheet lies inside the loop, near -1 when it lies outside, that is round a hole, and 0 at
+/// the end of a tube.
 fn outer_rim_alignment(mesh: &TriMesh, l: &BoundaryLoop) -> f64 {
     let mut normal = Vec3::zeros();
+    let mut double_area = 0.0;
     for &h in &l.halfedges {
         let [a, b, c] = mesh.corners(h / 3);
-        normal += cross_normal(&a, &b, &c);
+        let n = cross_normal(&a, &b, &c);
+        normal += n;
+        double_area += n.norm();
     }
     let area = Vec3::from(l.vector_area);
-    let scale = normal.norm() * area.norm();
+    let scale = double_area * area.norm();
     if scale > 0.0 {
         normal.dot(&area) / scale
     } else {

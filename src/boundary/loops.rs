@@ -2,6 +2,7 @@
 
 use super::classify::{LoopClass, classify};
 use crate::math::Vec3;
+use crate::math::aabb::Aabb;
 use crate::math::plane::fit_plane;
 use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD, origin, previous, target};
 use crate::mesh::rings::{FanEnd, walk_fan};
@@ -38,9 +39,8 @@ pub struct BoundaryLoop {
     pub(crate) reversed: Vec<usize>,
     /// For an island the loop whose hole it lies in.
     pub(crate) host: Option<usize>,
-    /// Corners of the bounding box.
-    pub(crate) low: Vec3,
-    pub(crate) high: Vec3,
+    /// The bounding box.
+    pub(crate) bounds: Aabb,
 }
 
 impl BoundaryLoop {
@@ -88,8 +88,8 @@ impl BoundaryLoops {
     /// piece is listed with [`LoopClass::OpenChain`].
     ///
     /// # Complexity
-    /// One sweep over the halfedges, then linear in the number of boundary edges and the valence of
-    /// their vertices.
+    /// O(b log b) for `b` boundary edges, plus the triangles at their vertices and those of islands; no pass
+    /// over the mesh.
     #[must_use]
     pub fn find(mesh: &TriMesh) -> Self {
         let boundary = mesh.connectivity().boundary_halfedges();
@@ -283,12 +283,10 @@ fn measure(mesh: &TriMesh, id: usize, chain: &Chain) -> BoundaryLoop {
     }
     let points: Vec<Vec3> = vertices.iter().map(|&v| mesh.point(v)).collect();
     let mut area = Vec3::zeros();
-    let (mut low, mut high) = (points[0], points[0]);
+    let bounds = Aabb::around(&points);
     for (i, p) in points.iter().enumerate() {
         let q = points[(i + 1) % points.len()];
         area += (p - points[0]).cross(&(q - points[0])) / 2.0;
-        low = low.inf(p);
-        high = high.sup(p);
     }
     let length = |i: usize| (points[(i + 1) % points.len()] - points[i]).norm();
     let perimeter = (0..halfedges.len()).map(length).sum();
@@ -298,7 +296,7 @@ fn measure(mesh: &TriMesh, id: usize, chain: &Chain) -> BoundaryLoop {
         id,
         perimeter,
         vector_area: area.into(),
-        diameter: (high - low).norm(),
+        diameter: (bounds.hi - bounds.lo).norm(),
         planarity: if total > 0.0 { spread[2] / total } else { 0.0 },
         class: match (chain.is_closed, reversed.is_empty()) {
             (false, _) => LoopClass::OpenChain,
@@ -309,7 +307,6 @@ fn measure(mesh: &TriMesh, id: usize, chain: &Chain) -> BoundaryLoop {
         halfedges,
         reversed,
         host: None,
-        low,
-        high,
+        bounds,
     }
 }

@@ -8,10 +8,12 @@ use super::report::{Attempt, HoleReport, HoleStatus};
 use super::verify::check_against_mesh;
 use crate::error::{Error, ErrorKind};
 use crate::math::Vec3;
+use crate::math::aabb::Aabb;
+use crate::math::box_tree::BoxTree;
 use crate::mesh::trimesh::TriMesh;
 use crate::quality::Surface;
 use crate::quality::self_intersection::{AppendedPatch, Search, count};
-use crate::quality::spatial::{Aabb, FaceIndex};
+use crate::quality::spatial::FaceIndex;
 use std::ops::Range;
 
 /// Stitches planned patches into a mesh.
@@ -21,7 +23,7 @@ pub(super) struct Stitcher<'a> {
     options: &'a FillOptions,
     interrupted: &'a (dyn Fn() -> bool + Sync),
     /// Boxes of all planned patches.
-    boxes: FaceIndex,
+    boxes: BoxTree,
     /// Holes whose patch is not the planned one, with its box.
     replanned: Vec<(usize, Aabb)>,
     /// Triangles of the patch of each hole, once it is stitched.
@@ -52,7 +54,7 @@ impl<'a> Stitcher<'a> {
         interrupted: &'a (dyn Fn() -> bool + Sync),
         plans: &[Option<&Plan>],
     ) -> Self {
-        let boxes = FaceIndex::of_boxes(plans.len(), |i| {
+        let boxes = BoxTree::build(plans.len(), |i| {
             plans[i].map_or_else(Aabb::empty, |plan| plan_box(mesh, plan))
         });
         let stitched = vec![0..0; plans.len()];

@@ -2,11 +2,11 @@
 
 use super::hole::Hole;
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::aabb::Aabb;
 use crate::math::cross_normal;
 use crate::mesh::connectivity::BOUNDARY;
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::PatchSurface;
-use crate::quality::spatial::Aabb;
 
 /// A triangle has no area when its double area is below this share of the squared rim edge length, which
 /// is the unit of the hole's coordinates.

@@ -1,5 +1,6 @@
 //! The command line program, run as users run it: exit status, streams, files.
 #![cfg(feature = "cli")]
+#![allow(clippy::print_stderr)] // A skipped test says so.
 
 use serde_json::Value;
 use std::ffi::OsStr;
@@ -465,6 +466,7 @@ fn bad_usage_is_told_before_anything_is_read_or_written() {
         ("fill in.off -o out.off --max-perimeter -1", "perimeter"),
         ("fill in.off -o out.off --max-perimeter NaN", "perimeter"),
         ("fill in.off -o out.off --threads many", "--threads"),
+        ("fill in.off -o out.off --threads 2000", "1024"),
         ("fill in.off -o out.off --seed -3", "--seed"),
         ("fill in.off -o out.off --unknown", "--unknown"),
         ("fill in.off -o out.off --report in.off", "overwrite"),

@@ -15,6 +15,9 @@ use crate::patch::PatchSurface;
 use crate::refine::{RefineOptions, grading, refine, rim_sizes};
 use crate::triangulate::{HolePolygon, TriangulationOptions, triangulate};
 
+/// Edge lengths of the first, coarse patch over those of the final one.
+const COARSENING: f64 = 2.0;
+
 /// Builds patches for one hole; the steps that several methods share are done once.
 pub(crate) struct Staircase<'a> {
     hole: &'a Hole,
@@ -27,7 +30,6 @@ pub(crate) struct Staircase<'a> {
 #[derive(Clone)]
 struct Refined {
     surface: PatchSurface,
-    sizes: Vec<f64>,
 }
 
 impl<'a> Staircase<'a> {
@@ -57,39 +59,10 @@ impl<'a> Staircase<'a> {
             Method::Auto | Method::FairC1 => Order::Two,
             Method::FairC2 => Order::Three,
         };
-        let Refined {
-            mut surface,
-            mut sizes,
-        } = self.refined()?;
+        let Refined { mut surface, .. } = self.refined()?;
         let mut solver = SpdSolver::default();
         let around = &self.hole.surroundings;
-        fair(
-            &mut surface,
-            around,
-            Order::One,
-            Weights::Uniform,
-            &mut solver,
-        )?;
-        self.refine(&mut surface, &mut sizes)?;
-        if order == Order::One {
-            fair(&mut surface, around, order, Weights::Cotangent, &mut solver)?;
-            return Ok(surface);
-        }
-        fair(
-            &mut surface,
-            around,
-            Order::Two,
-            Weights::Uniform,
-            &mut solver,
-        )?;
-        self.refine(&mut surface, &mut sizes)?;
-        fair(
-            &mut surface,
-            around,
-            Order::Two,
-            Weights::Cotangent,
-            &mut solver,
-        )?;
+        fair(&mut surface, around, order.min(Order::Two), Weights::Cotangent, &mut solver)?;
         if order == Order::Three {
             fair(&mut surface, around, order, Weights::Cotangent, &mut solver)?;
         }
@@ -149,10 +122,17 @@ impl<'a> Staircase<'a> {
         let refined = self.flat().and_then(|mut surface| {
             let mut sizes = rim_sizes(&surface, &self.hole.edge_lengths)?;
             for size in &mut sizes {
-                *size *= self.options.density;
+                *size *= COARSENING * self.options.density;
             }
             self.refine(&mut surface, &mut sizes)?;
-            Ok(Refined { surface, sizes })
+            let around = &self.hole.surroundings;
+            let mut solver = SpdSolver::default();
+            fair(&mut surface, around, Order::Two, Weights::Uniform, &mut solver)?;
+            for size in &mut sizes {
+                *size /= COARSENING;
+            }
+            self.refine(&mut surface, &mut sizes)?;
+            Ok(Refined { surface })
         });
         self.refined.insert(refined).clone()
     }

@@ -470,7 +470,7 @@ mod tests {
             triangles: &[[0, 1, 2], [0, 0, 0]],
         };
         let floor = square(2, 1.0, 0.5);
-        let d = compare(line, surface(&floor)).expect("a line has distances");
+        let d = compare_surfaces(line, surface(&floor)).expect("a line has distances");
         assert_eq!(d.normals, None);
         assert!(near(d.a_to_b.max, 1.25f64.sqrt(), 1e-12), "{d:?}");
         let empty = Surface {

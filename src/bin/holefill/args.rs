@@ -76,16 +76,17 @@ pub(crate) struct FillArgs {
         default_value_t = 0
     )]
     pub(crate) seed: u64,
-    /// Threads to fill with, 0 for as many as there are processors;
+    /// Threads to fill with, at most 1024, 0 for as many as there are processors;
     /// the result does not depend on it
     #[arg(
         long,
         allow_negative_numbers = true,
         verbatim_doc_comment,
         value_name = "N",
-        default_value_t = 0
+        default_value_t = 0,
+        value_parser = clap::value_parser!(u16).range(..=1024)
     )]
-    pub(crate) threads: usize,
+    pub(crate) threads: u16,
     /// Also write what happened to each hole, as JSON (seconds, degrees)
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,

@@ -101,7 +101,7 @@ fn options(args: &FillArgs) -> Result<FillOptions, Failure> {
     let mut options = FillOptions::default();
     options.method = args.method;
     options.seed = args.seed;
-    options.threads = args.threads;
+    options.threads = args.threads.into();
     for (key, value) in &args.set {
         options
             .set(key, value)
@@ -200,7 +200,7 @@ fn facts(
         threads: if args.threads == 0 {
             available()
         } else {
-            args.threads
+            args.threads.into()
         },
         seed: args.seed,
     }

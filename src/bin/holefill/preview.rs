@@ -22,7 +22,7 @@ const SIZE: usize = HEIGHT * SAMPLES;
 /// Colors, linear: what they are when fully lit.
 const MESH: Vec3 = Vec3::new(0.47, 0.49, 0.52);
 const MESH_INSIDE: Vec3 = Vec3::new(0.10, 0.17, 0.30);
-const PATCH: Vec3 = Vec3::new(0.92, 0.33, 0.045);
+const PATCH: Vec3 = Vec3::new(0.80, 0.245, 0.03);
 const PATCH_INSIDE: Vec3 = Vec3::new(0.42, 0.10, 0.02);
 const BACKGROUND_TOP: Vec3 = Vec3::new(0.95, 0.96, 0.97);
 const BACKGROUND_BOTTOM: Vec3 = Vec3::new(0.72, 0.75, 0.79);

@@ -67,7 +67,11 @@ pub(crate) fn carry(
 ) -> Result<CarriedAttributes> {
     let mut carried = CarriedAttributes::default();
     let vertex_columns = mesh.vertex_attributes().columns();
-    carried.vertex_sources = nearest_rim_vertices(hole, surface);
+    carried.vertex_sources = if vertex_columns.is_empty() {
+        vec![0; surface.points.len() - surface.rim_count]
+    } else {
+        nearest_rim_vertices(hole, surface)
+    };
     carried.face_sources = if mesh.face_attributes().columns().is_empty() {
         vec![0; surface.triangles.len()]
     } else {

@@ -4,13 +4,9 @@ use crate::boundary::loops::BoundaryLoop;
 use crate::error::{Error, ErrorKind, Result};
 use crate::fair::laplacian::Surroundings;
 use crate::math::{Vec3, cross_normal, unit};
-use crate::mesh::connectivity::{origin, target};
+use crate::mesh::connectivity::target;
 use crate::mesh::rings::collect_rings;
 use crate::mesh::trimesh::TriMesh;
-use std::collections::BTreeMap;
-
-/// Rings of triangles that the methods read round a hole.
-const RINGS: u32 = 2;
 
 /// A hole in coordinates of its own: the origin is the centroid of the rim, the unit is the mean length of
 /// the rim's edges, so that neither the position nor the scale of the model enters the computation.
@@ -37,7 +33,8 @@ pub(crate) struct Hole {
 }
 
 impl Hole {
-    /// Cuts out the hole that `outer` bounds, together with the loose sheets that `islands` bound.
+    /// Cuts out the hole that `outer` bounds, together with the loose sheets that `islands` bound and
+    /// `ring_count` rings of triangles round it.
     ///
     /// # Errors
     /// [`ErrorKind::InvalidInput`] for fewer than three edges, [`ErrorKind::Geometry`] when all vertices of
@@ -46,6 +43,7 @@ impl Hole {
         mesh: &TriMesh,
         outer: &BoundaryLoop,
         islands: &[&BoundaryLoop],
+        ring_count: u32,
     ) -> Result<Self> {
         if outer.edge_count() < 3 {
             return Err(Error::new(
@@ -57,17 +55,13 @@ impl Hole {
         for island in islands {
             polygon.join(mesh, Polygon::of_loop(island));
         }
-        let mut rim = polygon.vertices.clone();
-        if !islands.is_empty() {
-            let mut seen = std::collections::BTreeSet::new();
-            rim.retain(|&v| seen.insert(v));
-        }
-        let mut local_of: BTreeMap<u32, u32> = rim
+        let rim = distinct(&polygon.vertices);
+        let rim_index = LocalIndex::new(rim.iter().zip(0..).map(|(&v, i)| (v, i)).collect());
+        let polygon_indices: Vec<u32> = polygon
+            .vertices
             .iter()
-            .enumerate()
-            .map(|(i, &v)| (v, i as u32))
+            .filter_map(|&v| rim_index.get(v))
             .collect();
-        let polygon_indices: Vec<u32> = polygon.vertices.iter().map(|v| local_of[v]).collect();
 
         let count = rim.len() as f64;
         let center = rim.iter().map(|&v| mesh.point(v)).sum::<Vec3>() / count;
@@ -98,21 +92,28 @@ impl Hole {
             .chain(islands)
             .flat_map(|l| l.halfedges.iter().copied())
             .collect();
-        let rings = collect_rings(mesh, &rim_halfedges, RINGS);
+        let rings = collect_rings(mesh, &rim_halfedges, ring_count);
         let mut surroundings = Surroundings::default();
-        for (&v, &level) in rings.levels.iter().filter(|&(_, &level)| level > 0) {
-            local_of.insert(v, (rim.len() + surroundings.points.len()) as u32);
-            surroundings.points.push(to_local(v));
-            surroundings.levels.push(level);
+        let mut local = Vec::with_capacity(rings.levels.len());
+        for &(v, level) in &rings.levels {
+            local.push(match rim_index.get(v) {
+                Some(i) => (v, i),
+                None => {
+                    surroundings.points.push(to_local(v));
+                    surroundings.levels.push(level);
+                    (v, (rim.len() + surroundings.points.len() - 1) as u32)
+                }
+            });
         }
+        let local = LocalIndex::new(local);
         surroundings.triangles = rings
             .faces
             .iter()
-            .map(|&(f, _)| mesh.triangles()[f as usize].map(|v| local_of[&v]))
+            .map(|&(f, _)| mesh.triangles()[f as usize].map(|v| local.get(v).unwrap_or(0)))
             .collect();
         let points: Vec<Vec3> = rim.iter().map(|&v| to_local(v)).collect();
         let edge_lengths = mean_edge_lengths(&points, &surroundings);
-        let joined = joined_rim_vertices(mesh, &rim, &local_of);
+        let joined = joined_rim_vertices(mesh, &rim, &rim_index);
         Ok(Self {
             rim,
             polygon: polygon_indices,
@@ -223,23 +224,40 @@ fn mean_edge_lengths(rim: &[Vec3], surroundings: &Surroundings) -> Vec<f64> {
         .collect()
 }
 
-fn joined_rim_vertices(
-    mesh: &TriMesh,
-    rim: &[u32],
-    local_of: &BTreeMap<u32, u32>,
-) -> Vec<(u32, u32)> {
+fn joined_rim_vertices(mesh: &TriMesh, rim: &[u32], rim_index: &LocalIndex) -> Vec<(u32, u32)> {
     let mut joined = Vec::new();
-    for (i, &v) in rim.iter().enumerate() {
+    for (i, &v) in (0..).zip(rim) {
         for o in mesh.connectivity().outgoing(v) {
-            debug_assert_eq!(origin(mesh.triangles(), o.halfedge), v);
-            let other = target(mesh.triangles(), o.halfedge);
-            if let Some(&j) = local_of.get(&other).filter(|&&j| (j as usize) < rim.len()) {
-                let i = i as u32;
-                joined.push((i.min(j), i.max(j)));
+            if let Some(j) = rim_index.get(target(mesh.triangles(), o.halfedge)) {
+                joined.push((j.min(i), j.max(i)));
             }
         }
     }
     joined.sort_unstable();
     joined.dedup();
     joined
+}
+
+/// The values in the order of their first occurrence.
+fn distinct(values: &[u32]) -> Vec<u32> {
+    let mut places: Vec<(u32, usize)> = values.iter().copied().zip(0..).collect();
+    places.sort_unstable();
+    places.dedup_by_key(|&mut (value, _)| value);
+    places.sort_unstable_by_key(|&(_, place)| place);
+    places.into_iter().map(|(value, _)| value).collect()
+}
+
+/// Local numbers of mesh vertices.
+struct LocalIndex(Vec<(u32, u32)>);
+
+impl LocalIndex {
+    fn new(mut pairs: Vec<(u32, u32)>) -> Self {
+        pairs.sort_unstable();
+        Self(pairs)
+    }
+
+    fn get(&self, vertex: u32) -> Option<u32> {
+        let at = self.0.binary_search_by_key(&vertex, |&(v, _)| v).ok()?;
+        Some(self.0[at].1)
+    }
 }

@@ -22,7 +22,8 @@ pub struct FillOptions {
     /// Whether a loose sheet inside a hole is joined to the patch of that hole instead of being closed by
     /// itself; default true.
     pub join_islands: bool,
-    /// Largest rim, in edges, that is searched exhaustively for the minimum-weight triangulation. Default 96.
+    /// Largest rim, in edges, that [`Method::Flat`] searches exhaustively for the minimum-weight
+    /// triangulation; default 150.
     pub exact_limit: usize,
     /// Target edge length of new triangles relative to the rim's; default 1.
     pub density: f64,
@@ -41,7 +42,7 @@ impl Default for FillOptions {
             threads: 0,
             fallback: true,
             join_islands: true,
-            exact_limit: 96,
+            exact_limit: 150,
             density: 1.0,
             grading: None,
             max_new_vertices: 10_000_000,
@@ -106,9 +107,9 @@ impl FillOptions {
         Parameter {
             name: "flat.exact-limit",
             help: "largest rim, in edges, searched exhaustively; the cost grows with its cube",
-            allowed: "an integer from 3 to 4000",
+            allowed: "an integer from 3 to 2048",
             get: |o| o.exact_limit.to_string(),
-            set: |o, v| number(v, 3, 4000).map(|v| o.exact_limit = v),
+            set: |o, v| number(v, 3, 2048).map(|v| o.exact_limit = v),
         },
         Parameter {
             name: "refine.density",

@@ -49,20 +49,6 @@ pub fn fill_holes(
     options: &FillOptions,
     progress: Option<ProgressCallback<'_>>,
 ) -> Result<FillReport> {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(options.threads)
-        .build()
-        .map_err(|e| invalid(format!("cannot start {} threads: {e}", options.threads)))?;
-    pool.install(|| fill_on_this_pool(mesh, boundary, selection, options, progress))
-}
-
-fn fill_on_this_pool(
-    mesh: &mut TriMesh,
-    boundary: &BoundaryLoops,
-    selection: &Selection,
-    options: &FillOptions,
-    progress: Option<ProgressCallback<'_>>,
-) -> Result<FillReport> {
     check_boundary(mesh, boundary)?;
     let kept = selection.reasons_to_keep(boundary)?;
     let holes = group_holes(boundary, &kept, options);
@@ -78,11 +64,16 @@ fn fill_on_this_pool(
     if holes.is_empty() {
         return Ok(report);
     }
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(options.threads)
+        .build()
+        .map_err(|e| invalid(format!("cannot start {} threads: {e}", options.threads)))?;
     let start = Instant::now();
-    let faces = FaceIndex::build(Surface {
+    let surface = Surface {
         points: mesh.points(),
         triangles: mesh.triangles(),
-    });
+    };
+    let faces = pool.install(|| FaceIndex::build(surface));
     report.index_seconds = start.elapsed().as_secs_f64();
 
     let start = Instant::now();
@@ -95,24 +86,26 @@ fn fill_on_this_pool(
         interrupted: &interrupted,
     };
     let methods = chain(options);
-    let planned: Vec<(std::result::Result<Plan, Failure>, f64)> = holes
-        .par_iter()
-        .with_max_len(1)
-        .map(|hole| {
-            let start = Instant::now();
-            let outcome = if meter.is_cancelled() {
-                let error = Error::new(ErrorKind::Cancelled, "stopped by the caller");
-                Err(Failure {
-                    error,
-                    tried: Vec::new(),
-                })
-            } else {
-                planner.plan(hole.outer, &hole.islands, &methods)
-            };
-            meter.advance();
-            (outcome, start.elapsed().as_secs_f64())
-        })
-        .collect();
+    let plan = |hole: &HoleLoops<'_>| {
+        let start = Instant::now();
+        let outcome = if meter.is_cancelled() {
+            let error = Error::new(ErrorKind::Cancelled, "stopped by the caller");
+            Err(Failure {
+                error,
+                tried: Vec::new(),
+            })
+        } else {
+            planner.plan(hole.outer, &hole.islands, &methods)
+        };
+        meter.advance();
+        (outcome, start.elapsed().as_secs_f64())
+    };
+    // One thread is the caller's own: its memory is warm, and callbacks come from where the call came.
+    let planned: Vec<(std::result::Result<Plan, Failure>, f64)> = if options.threads == 1 {
+        holes.iter().map(plan).collect()
+    } else {
+        pool.install(|| holes.par_iter().with_max_len(1).map(plan).collect())
+    };
     let plans: Vec<Option<&Plan>> = planned.iter().map(|(p, _)| p.as_ref().ok()).collect();
     let mut stitcher = Stitcher::new(mesh, &faces, options, &interrupted, &plans);
     for (i, (hole, (plan, seconds))) in holes.iter().zip(planned).enumerate() {

@@ -88,7 +88,8 @@ impl Planner<'_> {
         methods: &[Method],
     ) -> std::result::Result<Plan, Failure> {
         let mut tried = Vec::new();
-        let hole = match Hole::new(self.mesh, outer, islands) {
+        let rings = methods.first().map_or(1, |&m| Staircase::ring_count(m));
+        let hole = match Hole::new(self.mesh, outer, islands, rings) {
             Ok(hole) => hole,
             Err(error) => return Err(Failure { error, tried }),
         };

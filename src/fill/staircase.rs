@@ -18,12 +18,22 @@ use crate::triangulate::{HolePolygon, TriangulationOptions, triangulate};
 /// Edge lengths of the first, coarse patch over those of the final one.
 const COARSENING: f64 = 2.0;
 
+/// Polygon vertices that ear clipping leaves to the exhaustive search.
+const EAR_REMAINDER: usize = 64;
+/// The same, and the largest rim searched whole, where the triangulation is only the start of a patch that
+/// will be refined: flips and fairing make up for what the search would find.
+const START_EAR_REMAINDER: usize = 32;
+const START_EXACT_LIMIT: usize = 48;
+
+/// Relaxations of the coarse and of the final patch.
+const COARSE_RELAXATIONS: usize = 0;
+const FINE_RELAXATIONS: usize = 2;
+
 /// Builds patches for one hole; the steps that several methods share are done once.
 pub(crate) struct Staircase<'a> {
     hole: &'a Hole,
     options: &'a FillOptions,
     interrupted: &'a dyn Fn() -> bool,
-    flat: Option<Result<PatchSurface>>,
     refined: Option<Result<Refined>>,
 }
 
@@ -43,9 +53,13 @@ impl<'a> Staircase<'a> {
             hole,
             options,
             interrupted,
-            flat: None,
             refined: None,
         }
+    }
+
+    /// Rings of triangles round the hole that `method` and the simpler ones read.
+    pub(crate) fn ring_count(method: Method) -> u32 {
+        if method == Method::FairC2 { 2 } else { 1 }
     }
 
     /// The patch of `method` in the hole's coordinates.
@@ -54,7 +68,7 @@ impl<'a> Staircase<'a> {
     /// Those of triangulation, refinement and fairing, and [`ErrorKind::Cancelled`].
     pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
         let order = match method {
-            Method::Flat => return self.flat(),
+            Method::Flat => return self.triangulate(self.options.exact_limit, EAR_REMAINDER),
             Method::Membrane => Order::One,
             Method::Auto | Method::FairC1 => Order::Two,
             Method::FairC2 => Order::Three,
@@ -62,7 +76,13 @@ impl<'a> Staircase<'a> {
         let Refined { mut surface, .. } = self.refined()?;
         let mut solver = SpdSolver::default();
         let around = &self.hole.surroundings;
-        fair(&mut surface, around, order.min(Order::Two), Weights::Cotangent, &mut solver)?;
+        fair(
+            &mut surface,
+            around,
+            order.min(Order::Two),
+            Weights::Cotangent,
+            &mut solver,
+        )?;
         if order == Order::Three {
             fair(&mut surface, around, order, Weights::Cotangent, &mut solver)?;
         }
@@ -76,15 +96,7 @@ impl<'a> Staircase<'a> {
         Ok(())
     }
 
-    fn flat(&mut self) -> Result<PatchSurface> {
-        if let Some(flat) = &self.flat {
-            return flat.clone();
-        }
-        let flat = self.triangulate();
-        self.flat.insert(flat).clone()
-    }
-
-    fn triangulate(&self) -> Result<PatchSurface> {
+    fn triangulate(&self, exact_limit: usize, ear_remainder: usize) -> Result<PatchSurface> {
         let hole = self.hole;
         let points: Vec<_> = hole
             .polygon
@@ -99,9 +111,9 @@ impl<'a> Staircase<'a> {
             blocked: &|i, j| hole.is_joined(at(i), at(j)),
         };
         let options = TriangulationOptions {
-            exact_limit: self.options.exact_limit,
+            exact_limit,
+            ear_remainder,
             interrupted: self.interrupted,
-            ..TriangulationOptions::default()
         };
         let triangulation = triangulate(&polygon, &options)?;
         let triangles = triangulation
@@ -119,31 +131,45 @@ impl<'a> Staircase<'a> {
         if let Some(refined) = &self.refined {
             return refined.clone();
         }
-        let refined = self.flat().and_then(|mut surface| {
+        let start = self.triangulate(START_EXACT_LIMIT, START_EAR_REMAINDER);
+        let refined = start.and_then(|mut surface| {
             let mut sizes = rim_sizes(&surface, &self.hole.edge_lengths)?;
             for size in &mut sizes {
                 *size *= COARSENING * self.options.density;
             }
-            self.refine(&mut surface, &mut sizes)?;
+            self.refine(&mut surface, &mut sizes, COARSE_RELAXATIONS)?;
             let around = &self.hole.surroundings;
             let mut solver = SpdSolver::default();
-            fair(&mut surface, around, Order::Two, Weights::Uniform, &mut solver)?;
+            fair(
+                &mut surface,
+                around,
+                Order::Two,
+                Weights::Uniform,
+                &mut solver,
+            )?;
             for size in &mut sizes {
                 *size /= COARSENING;
             }
-            self.refine(&mut surface, &mut sizes)?;
+            self.refine(&mut surface, &mut sizes, FINE_RELAXATIONS)?;
             Ok(Refined { surface })
         });
         self.refined.insert(refined).clone()
     }
 
-    fn refine(&self, surface: &mut PatchSurface, sizes: &mut Vec<f64>) -> Result<()> {
+    fn refine(
+        &self,
+        surface: &mut PatchSurface,
+        sizes: &mut Vec<f64>,
+        final_relaxations: usize,
+    ) -> Result<()> {
         self.check_interruption()?;
         let options = RefineOptions {
             grading: self
                 .options
                 .grading
                 .unwrap_or_else(|| grading(surface.rim_count)),
+            pass_relaxations: 1,
+            final_relaxations,
             max_vertices: surface
                 .rim_count
                 .saturating_add(self.options.max_new_vertices),

@@ -6,6 +6,11 @@ use faer::linalg::solvers::SolveCore;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Mat, Side};
+use nalgebra::DMatrix;
+
+/// Systems of up to this many unknowns are solved densely: the bookkeeping of a sparse factorisation would
+/// cost more than the zeros.
+const DENSE_LIMIT: usize = 96;
 
 /// Added to the diagonal, relative to its mean, against loss of definiteness by rounding.
 const RELATIVE_SHIFT: f64 = 1e-12;
@@ -49,8 +54,8 @@ impl SpdSolver {
     ) -> Result<Vec<Vec3>> {
         let size = matrix.size();
         debug_assert_eq!(size, right_side.len());
-        if size == 0 {
-            return Ok(Vec::new());
+        if size <= DENSE_LIMIT {
+            return solve_dense(&matrix, right_side);
         }
         let diagonal = |matrix: &SymmetricMatrix, j: usize| matrix.column_starts[j] as usize;
         let mean = (0..size)
@@ -81,16 +86,51 @@ impl SpdSolver {
         factor.solve_in_place_with_conj(Conj::No, x.as_mut());
         self.symbolic = Some(symbolic);
         self.pattern = (matrix.column_starts, matrix.rows);
-        let solution: Vec<Vec3> = (0..size)
-            .map(|i| Vec3::new(x[(i, 0)], x[(i, 1)], x[(i, 2)]))
-            .collect();
-        if solution.iter().all(|p| p.iter().all(|c| c.is_finite())) {
-            Ok(solution)
-        } else {
-            Err(failed(format!(
-                "the solution of {size} unknowns is not finite"
-            )))
+        finite(
+            (0..size)
+                .map(|i| Vec3::new(x[(i, 0)], x[(i, 1)], x[(i, 2)]))
+                .collect(),
+        )
+    }
+}
+
+/// Solves a small system by a dense Cholesky factorisation.
+fn solve_dense(matrix: &SymmetricMatrix, right_side: &[Vec3]) -> Result<Vec<Vec3>> {
+    let size = matrix.size();
+    let mut full = DMatrix::zeros(size, size);
+    for j in 0..size {
+        for k in matrix.column_starts[j]..matrix.column_starts[j + 1] {
+            full[(matrix.rows[k as usize] as usize, j)] = matrix.values[k as usize];
         }
+    }
+    let mean = full.diagonal().mean();
+    for j in 0..size {
+        full[(j, j)] += RELATIVE_SHIFT * mean;
+    }
+    // Only the lower triangle is read.
+    let factor = full.cholesky().ok_or_else(|| {
+        failed(format!(
+            "the matrix of {size} unknowns is not positive definite"
+        ))
+    })?;
+    let mut x = DMatrix::from_fn(size, 3, |i, k| right_side[i][k]);
+    factor.solve_mut(&mut x);
+    finite(
+        x.row_iter()
+            .map(|row| Vec3::new(row[0], row[1], row[2]))
+            .collect(),
+    )
+}
+
+/// The solution, if all of it is finite.
+fn finite(solution: Vec<Vec3>) -> Result<Vec<Vec3>> {
+    if solution.iter().flatten().all(|c| c.is_finite()) {
+        Ok(solution)
+    } else {
+        Err(failed(format!(
+            "the solution of {} unknowns is not finite",
+            solution.len()
+        )))
     }
 }
 

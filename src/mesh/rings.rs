@@ -2,8 +2,6 @@
 
 use super::connectivity::{DEGENERATE, next, origin, previous};
 use super::trimesh::TriMesh;
-use std::collections::BTreeSet;
-use std::collections::btree_map::{BTreeMap, Entry};
 
 /// How a walk round a vertex came to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,53 +48,60 @@ pub(crate) fn walk_fan(
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rings {
     /// Triangles with their ring: ring `r` has the triangles that touch a vertex of level `r` and none
-    /// of a lower level.
+    /// of a lower level. Ordered by ring, then by triangle.
     pub(crate) faces: Vec<(u32, u32)>,
-    /// Level of each vertex met: 0 on the rim, else the ring that it was met in, plus one.
-    pub(crate) levels: BTreeMap<u32, u32>,
+    /// Vertices with their level: 0 on the rim, else the ring that the vertex was met in, plus one.
+    /// Ordered by vertex.
+    pub(crate) levels: Vec<(u32, u32)>,
 }
 
 /// Collects `count` rings of triangles round the rim given by its boundary halfedges.
 ///
-/// Cost follows the number of triangles collected.
+/// Cost follows the number of triangles collected, but for sorting them.
 pub(crate) fn collect_rings(mesh: &TriMesh, rim_halfedges: &[u32], count: u32) -> Rings {
     let triangles = mesh.triangles();
-    let mut rings = Rings::default();
-    let mut seen_faces = BTreeSet::new();
-    // A vertex with the halfedge through which it was met, so that the walk stays on its sheet.
-    let mut frontier: Vec<(u32, u32)> = Vec::new();
-    for &h in rim_halfedges {
-        // Each rim vertex is the head of one rim halfedge.
-        let head = origin(triangles, next(h));
-        rings.levels.insert(head, 0);
-        frontier.push((head, h));
-    }
+    // A vertex with the halfedge through which it was met, so that the walk stays on its sheet. Each rim
+    // vertex is the head of one rim halfedge.
+    let mut frontier: Vec<(u32, u32)> = rim_halfedges
+        .iter()
+        .map(|&h| (origin(triangles, next(h)), h))
+        .collect();
+    let mut levels: Vec<(u32, u32)> = frontier.iter().map(|&(v, _)| (v, 0)).collect();
+    levels.sort_unstable();
+    levels.dedup();
+    let mut faces: Vec<(u32, u32)> = Vec::new();
+    let mut known_faces: Vec<u32> = Vec::new();
     for ring in 0..count {
-        let mut next_frontier = Vec::new();
-        for (vertex, halfedge) in frontier {
-            let mut visit = |face: u32| {
-                if !seen_faces.insert(face) {
-                    return;
-                }
-                rings.faces.push((face, ring));
-                for k in 0..3 {
-                    let h = 3 * face + k;
-                    let v = origin(triangles, h);
-                    if let Entry::Vacant(slot) = rings.levels.entry(v) {
-                        slot.insert(ring + 1);
-                        next_frontier.push((v, h));
-                    }
-                }
-            };
-            if let FanEnd::At(_) = walk_fan(mesh, vertex, halfedge, &mut visit) {
+        let mut met = Vec::new();
+        for &(vertex, halfedge) in &frontier {
+            if let FanEnd::At(_) = walk_fan(mesh, vertex, halfedge, |face| met.push(face)) {
                 // The fan is open: walk the other way round as well.
                 let twin = mesh.connectivity().twin(halfedge);
                 if twin < DEGENERATE {
-                    walk_fan(mesh, vertex, twin, &mut visit);
+                    walk_fan(mesh, vertex, twin, |face| met.push(face));
                 }
             }
         }
-        frontier = next_frontier;
+        met.sort_unstable();
+        met.dedup();
+        met.retain(|face| known_faces.binary_search(face).is_err());
+        faces.extend(met.iter().map(|&face| (face, ring)));
+        frontier = met
+            .iter()
+            .flat_map(|&face| 3 * face..3 * face + 3)
+            .map(|h| (origin(triangles, h), h))
+            .filter(|&(v, _)| {
+                levels
+                    .binary_search_by_key(&v, |&(known, _)| known)
+                    .is_err()
+            })
+            .collect();
+        frontier.sort_unstable();
+        frontier.dedup_by_key(|&mut (v, _)| v);
+        levels.extend(frontier.iter().map(|&(v, _)| (v, ring + 1)));
+        levels.sort_unstable();
+        known_faces.append(&mut met);
+        known_faces.sort_unstable();
     }
-    rings
+    Rings { faces, levels }
 }

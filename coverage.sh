@@ -66,22 +66,34 @@ done
 "$llvm_cov" export --format=lcov --instr-profile "$raw/all.profdata" "${objects[@]:1}" \
     "$PWD"/src >"$raw/all.lcov"
 
-# For each file the line from which on only tests use it: 0 for a whole file, else that of its test module.
+# What only tests use: 0 and a file or folder without its ending, or the line where a file's test module begins.
 find src -name '*.rs' | sort | while read -r file; do
     folder=$(dirname "$file")
     case $(basename "$file") in
     mod.rs | lib.rs | main.rs) children=$folder ;;
     *) children=${file%.rs} ;;
     esac
-    awk -v file="$file" -v children="$children" '
-        after_cfg && match($0, /mod [a-z_0-9]+;/) { print 0, children "/" substr($0, RSTART + 4, RLENGTH - 5) ".rs" }
-        after_cfg && /mod [a-z_0-9]+ \{/ { print FNR, file }
-        { after_cfg = /^#\[cfg\(test\)\]$/ }' "$file"
+    awk -v file="$file" -v folder="$folder" -v children="$children" '
+        /^#\[cfg\(test\)\]$/ { is_test = 1; path = ""; next }
+        is_test && /^#\[path = / { split($0, part, "\""); path = folder "/" part[2]; sub(/\.rs$/, "", path); next }
+        is_test && /^#\[/ { next }
+        is_test && match($0, /mod [a-z_0-9]+;/) {
+            print 0, path ? path : children "/" substr($0, RSTART + 4, RLENGTH - 5)
+        }
+        is_test && /mod [a-z_0-9]+ \{/ { print FNR, file }
+        { is_test = 0 }' "$file"
 done >"$raw/tests"
 
 awk -v root="$PWD/" -v minimum=$MINIMUM '
-    FNR == NR { tests[$2] = $1; next }
-    /^SF:/ { file = substr($0, 4); sub(root, "", file); end = (file in tests) ? tests[file] : 1e9 }
+    FNR == NR { if ($1) start[$2] = $1; else whole[$2]; next }
+    /^SF:/ {
+        file = substr($0, 4)
+        sub(root, "", file)
+        end = (file in start) ? start[file] : 1e9
+        for (place in whole) {
+            if (file == place ".rs" || index(file, place "/") == 1) end = 0
+        }
+    }
     /^DA:/ {
         split(substr($0, 4), at, ",")
         if (at[1] < end) { lines[file]++; hit[file] += at[2] > 0 }

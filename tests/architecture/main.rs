@@ -86,14 +86,18 @@ impl Root {
     fn read(source: &str) -> Self {
         let tokens = tokens(source);
         let is_mod = |w: &&[&str]| w[0] == "mod" && [";", "{"].contains(&w[2]);
-        let modules = tokens.windows(3).filter(is_mod);
+        // Paths in the root begin with a module's name: `self::` before them makes the reader take them.
+        let read = uses(&[], &source.replace("pub use ", "pub use self::"));
+        let modules = tokens
+            .windows(3)
+            .filter(is_mod)
+            .map(|w| w[1].to_owned())
+            .filter(|module| !read.test_modules.contains(&vec![module.clone()]));
         let mut root = Self {
-            modules: modules.map(|w| w[1].to_owned()).collect(),
+            modules: modules.collect(),
             exports: BTreeMap::new(),
         };
-        // Paths in the root begin with a module's name: `self::` before them makes the reader take them.
-        let absolute = source.replace("pub use ", "pub use self::");
-        for (_, path) in uses(&[], &absolute).paths {
+        for (_, path) in read.paths {
             if let Some(last) = path.last() {
                 root.exports.insert(last.clone(), path.clone());
             }

@@ -208,7 +208,9 @@ fn modules_of_tests_in_other_files_are_known() {
 
 #[test]
 fn the_root_is_read_with_its_exports() {
-    let root = Root::read("mod a; pub mod b;\npub use a::{c::{D, E}, G};\npub use b::h;");
+    let root = Root::read(
+        "mod a; pub mod b; #[cfg(test)] #[path = \"c.rs\"] mod c;\npub use a::{c::{D, E}, G};\npub use b::h;",
+    );
     assert_eq!(root.modules, ["a", "b"]);
     let place = |export: &str| root.exports[export].join("::");
     assert_eq!(

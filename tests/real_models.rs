@@ -42,7 +42,7 @@ fn bits(positions: &[[f64; 3]]) -> Vec<[u64; 3]> {
 fn run(case: &Path) -> String {
     let name = case.file_name().unwrap().to_string_lossy();
     let meta: Value = serde_json::from_slice(&fs::read(case.join("meta.json")).unwrap()).unwrap();
-    let file = io::read(&case.join("input.ply")).unwrap();
+    let file = io::read(case.join("input.ply")).unwrap();
     let mut mesh = TriMesh::with_attributes(
         file.positions.clone(),
         file.triangles.clone(),

@@ -56,7 +56,8 @@ export LLVM_PROFILE_FILE="$raw/%4m.profraw"
 
 mapfile -t programs < <(cargo test --locked --no-run --message-format=json |
     sed -n 's/.*"executable":"\([^"]*\)".*/\1/p')
-cargo test --locked --lib --bins --tests
+tests=passed
+cargo test --locked --lib --bins --tests --no-fail-fast || tests=failed
 
 "$llvm_profdata" merge --sparse "$raw"/*.profraw -o "$raw/all.profdata"
 objects=()
@@ -109,3 +110,4 @@ awk -v root="$PWD/" -v minimum=$MINIMUM '
         printf "%6.1f %%  %5d of %5d  lines of src/ (at least %d %% wanted)\n", share, all_hit, all, minimum
         exit share < minimum
     }' "$raw/tests" "$raw/all.lcov"
+[ $tests = passed ] || { echo "coverage: some tests failed" >&2 && exit 1; }

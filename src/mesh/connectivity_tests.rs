@@ -78,7 +78,7 @@ fn links(connectivity: &Connectivity) -> Vec<u32> {
 }
 
 fn check(vertex_count: usize, triangles: &[[u32; 3]]) {
-    let (connectivity, defects) = Connectivity::build(vertex_count, triangles);
+    let (connectivity, defects) = Connectivity::build(vertex_count, triangles).unwrap();
     let (expected, expected_counts) = by_all_pairs(vertex_count, triangles);
     assert_eq!(links(&connectivity), expected, "{triangles:?}");
     assert_eq!(counts(&defects), expected_counts, "{triangles:?}");
@@ -124,11 +124,11 @@ proptest! {
         cuts.push(whole.triangles.len());
         cuts.sort_unstable();
         let count = whole.positions.len();
-        let (mut grown, _) = Connectivity::build(count, &whole.triangles[..cuts[0]]);
+        let (mut grown, _) = Connectivity::build(count, &whole.triangles[..cuts[0]]).unwrap();
         for pair in cuts.windows(2) {
             grown.append(&whole.triangles[..pair[1]], pair[0]);
         }
-        let (built, _) = Connectivity::build(count, &whole.triangles);
+        let (built, _) = Connectivity::build(count, &whole.triangles).unwrap();
         prop_assert_eq!(links(&grown), links(&built));
         prop_assert_eq!(grown.boundary_halfedges(), built.boundary_halfedges());
         for v in 0..count as u32 {
@@ -155,7 +155,8 @@ fn every_fixture_is_linked_as_by_all_pairs() {
 fn vertices_of_very_high_valence_are_linked_like_others() {
     for is_closed in [true, false] {
         let fan = fixtures::fan(5000, is_closed);
-        let (connectivity, defects) = Connectivity::build(fan.positions.len(), &fan.triangles);
+        let (connectivity, defects) =
+            Connectivity::build(fan.positions.len(), &fan.triangles).unwrap();
         assert_eq!(defects, MeshDefects::default());
         let rim = if is_closed { 5000 } else { 5002 };
         assert_eq!(connectivity.boundary_halfedges().len(), rim);
@@ -175,7 +176,7 @@ fn thirty_triangles_at_each_of_two_edges_of_high_valence_vertices_are_one_defect
     let pages = 200_u32;
     let mut triangles: Vec<_> = (2..2 + pages).map(|tip| [0, 1, tip]).collect();
     triangles.push([0, 0, 1]);
-    let (connectivity, defects) = Connectivity::build(pages as usize + 2, &triangles);
+    let (connectivity, defects) = Connectivity::build(pages as usize + 2, &triangles).unwrap();
     assert_eq!(counts(&defects), [1, 0, 1, 0, 0]);
     assert_eq!(defects.nonmanifold_edges.examples, [[0, 1]]);
     assert_eq!(connectivity.boundary_halfedges().len(), 2 * pages as usize);
@@ -193,12 +194,12 @@ fn the_steps_within_a_triangle_are_cyclic() {
 #[test]
 fn a_face_is_found_whatever_its_orientation() {
     let mesh = fixtures::tetrahedron();
-    let (connectivity, _) = Connectivity::build(4, &mesh.triangles);
+    let (connectivity, _) = Connectivity::build(4, &mesh.triangles).unwrap();
     for t in [[0, 1, 2], [2, 1, 0], [1, 0, 3]] {
         assert!(connectivity.has_face(&mesh.triangles, t), "{t:?}");
     }
     let open = fixtures::two_triangles();
-    let (connectivity, _) = Connectivity::build(4, &open.triangles);
+    let (connectivity, _) = Connectivity::build(4, &open.triangles).unwrap();
     assert!(!connectivity.has_face(&open.triangles, [0, 1, 3]));
 }
 

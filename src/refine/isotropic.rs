@@ -14,7 +14,7 @@
 //! two triangles of a strongly twisted patch intersect; that edges just under the splitting threshold
 //! are the best choice for very small holes.
 
-use super::connectivity::{Connectivity, Halfedge, next, prev};
+use super::connectivity::{Connectivity, Halfedge, next};
 use super::density::SizeField;
 use super::flip::{Blocked, Flipper};
 use super::locality::renumber;
@@ -29,10 +29,10 @@ use std::cmp::Reverse;
 const MAX_PASSES: usize = 128;
 
 /// A pass that adds less than this part of the vertices relaxes only the surroundings of its own.
-const LOCAL_PASS: f64 = 0.1;
+const LOCAL_PASS: f64 = 0.2;
 
 /// How many edges from a new vertex a local pass reaches.
-const LOCAL_RINGS: usize = 2;
+const LOCAL_RINGS: usize = 1;
 
 /// Patches with fewer vertices fit into the cache in any order.
 const RENUMBER_FROM: usize = 5_000;
@@ -146,6 +146,9 @@ pub(crate) fn refine(
     Ok(refiner.report)
 }
 
+/// How far an edge is above the length at which it is split, and one of its half-edges.
+type LongEdge = (Reverse<u32>, Halfedge);
+
 struct Refiner<'a> {
     mesh: Connectivity,
     points: Vec<Vec3>,
@@ -179,10 +182,8 @@ impl Refiner<'_> {
         for _ in 0..MAX_PASSES {
             let before = self.mesh.vertex_count();
             let long = match &near {
-                Some(near) => self.long_edges(near.iter().flat_map(|&v| self.mesh.corners(v))),
-                None => self.long_edges((0..self.mesh.halfedge_count()).filter(|&h| {
-                    self.mesh.opposite(h).is_some_and(|g| h < g) // each edge once
-                })),
+                Some(near) => self.long_edges_at(near),
+                None => self.all_long_edges(),
             };
             self.split_edges(long)?;
             let added = self.mesh.vertex_count() - before;
@@ -217,8 +218,10 @@ impl Refiner<'_> {
         grown
     }
 
-    /// Length of an edge over the length at which it is split.
-    fn excess(&self, a: u32, b: u32) -> f64 {
+    /// How far an edge is above the length at which it is split, in quarters of an octave; `None` when
+    /// it is not.
+    #[inline]
+    fn excess(&self, a: u32, b: u32) -> Option<u32> {
         let rim = self.mesh.rim_count();
         let factor = if (a.max(b) as usize) >= rim {
             self.options.split_factor
@@ -227,33 +230,46 @@ impl Refiner<'_> {
         } else {
             self.options.split_factor.max(SMALL_RIM_FACTOR)
         };
-        let length = (self.points[a as usize] - self.points[b as usize]).norm();
-        length / (0.5 * factor * (self.sizes.at(a) + self.sizes.at(b)))
+        let limit = 0.5 * factor * (self.sizes.at(a) + self.sizes.at(b));
+        let squared = (self.points[a as usize] - self.points[b as usize]).norm_squared();
+        // The leading bits of a positive float are its octave and half of an octave.
+        (squared > limit * limit).then(|| ((squared / (limit * limit)).to_bits() >> 51) as u32)
     }
 
-    /// Those of `edges` that are interior and too long, longest first to a quarter of an octave.
-    fn long_edges(&self, edges: impl Iterator<Item = Halfedge>) -> Vec<(Reverse<u32>, Halfedge)> {
-        // The leading bits of a positive float are its octave and quarter of an octave.
-        let quarter = |excess: f64| (excess.to_bits() >> 50) as u32;
-        let mut long: Vec<_> = edges
-            .filter_map(|h| Some(h.min(self.mesh.opposite(h)?)))
-            .map(|h| {
-                (
-                    Reverse(quarter(
-                        self.excess(self.mesh.origin(h), self.mesh.target(h)),
-                    )),
-                    h,
-                )
-            })
-            .filter(|(Reverse(class), _)| *class >= quarter(1.0))
-            .collect();
-        long.sort_unstable();
-        long.dedup();
+    /// All interior edges that are too long, with their excess.
+    fn all_long_edges(&self) -> Vec<LongEdge> {
+        let mut long = Vec::new();
+        let mut h = 0;
+        for &[a, b, c] in self.mesh.triangles() {
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                // each edge once
+                if self.mesh.opposite(h).is_some_and(|g| h < g)
+                    && let Some(excess) = self.excess(from, to)
+                {
+                    long.push((Reverse(excess), h));
+                }
+                h += 1;
+            }
+        }
         long
     }
 
-    /// Splits the edges in turn, no two of one triangle.
-    fn split_edges(&mut self, long: Vec<(Reverse<u32>, Halfedge)>) -> Result<()> {
+    /// The same among the edges out of `vertices`; an edge may occur twice.
+    fn long_edges_at(&self, vertices: &[u32]) -> Vec<LongEdge> {
+        let mut long = Vec::new();
+        for &v in vertices {
+            for h in self.mesh.corners(v) {
+                if let Some(excess) = self.excess(v, self.mesh.target(h)) {
+                    long.push((Reverse(excess), h));
+                }
+            }
+        }
+        long
+    }
+
+    /// Splits the edges, longest first to a quarter of an octave, no two of one triangle.
+    fn split_edges(&mut self, mut long: Vec<LongEdge>) -> Result<()> {
+        long.sort_by_key(|&(class, _)| class);
         let mut used = vec![false; self.mesh.triangles().len()];
         for (_, h) in long {
             let Some(g) = self.mesh.opposite(h) else {
@@ -286,9 +302,8 @@ impl Refiner<'_> {
         self.sizes
             .push_midpoint(&self.points, &middle, [a, b], apexes);
         self.points.push(middle);
-        let outer = self.mesh.split(h, g);
-        self.dirty.extend(outer);
-        self.dirty.extend([h, next(h), prev(g), prev(outer[1])]);
+        // Halving a triangle leaves the four inner edges Delaunay.
+        self.dirty.extend(self.mesh.split(h, g));
     }
 
     fn restore_dirty(&mut self) {

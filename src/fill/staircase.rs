@@ -27,7 +27,7 @@ const START_EXACT_LIMIT: usize = 48;
 
 /// Relaxations of the coarse and of the final patch.
 const COARSE_RELAXATIONS: usize = 0;
-const FINE_RELAXATIONS: usize = 1;
+const FINE_RELAXATIONS: usize = 2;
 
 /// Builds patches for one hole; the steps that several methods share are done once.
 pub(crate) struct Staircase<'a> {

@@ -153,6 +153,11 @@ impl SizeField {
         self.sizes[v as usize]
     }
 
+    /// Whether sizes depend on the distance from the rim.
+    pub(super) fn is_graded(&self) -> bool {
+        self.grading != 0.0
+    }
+
     pub(super) fn into_sizes(self) -> Vec<f64> {
         self.sizes
     }
@@ -188,9 +193,6 @@ impl SizeField {
 
     /// Measures the depth of an interior vertex anew, given the distances to its neighbours.
     pub(super) fn measure_depth(&mut self, v: u32, ring: impl Iterator<Item = (u32, f64)>) {
-        if self.grading == 0.0 {
-            return;
-        }
         let base = self.base(v);
         let depth = ring
             .map(|(u, distance)| self.depths[u as usize] + distance)

@@ -18,7 +18,7 @@ use super::connectivity::{Connectivity, Halfedge, next};
 use super::density::SizeField;
 use super::flip::{Blocked, Flipper};
 use super::locality::renumber;
-use super::relax::Relaxer;
+use super::relax::relax;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
@@ -28,7 +28,8 @@ use std::cmp::Reverse;
 /// other; only inputs on which splitting makes no headway come near this.
 const MAX_PASSES: usize = 128;
 
-/// A pass that adds less than this part of the vertices relaxes only the surroundings of its own.
+/// A pass that adds less than this part of the vertices is one of the last: the whole patch gets its
+/// final relaxations, and later passes relax only the surroundings of their own vertices.
 const LOCAL_PASS: f64 = 0.2;
 
 /// How many edges from a new vertex a local pass reaches.
@@ -134,7 +135,6 @@ pub(crate) fn refine(
         sizes: field,
         options,
         flipper: Flipper::new(blocked),
-        relaxer: Relaxer::new(),
         dirty: Vec::new(),
         ordered: surface.points.len().max(RENUMBER_FROM),
         report: RefineReport::default(),
@@ -146,7 +146,8 @@ pub(crate) fn refine(
     Ok(refiner.report)
 }
 
-/// How far an edge is above the length at which it is split, and one of its half-edges.
+/// How far an edge is above the length at which it is split, in quarters of an octave, and one of its
+/// half-edges.
 type LongEdge = (Reverse<u32>, Halfedge);
 
 struct Refiner<'a> {
@@ -155,7 +156,6 @@ struct Refiner<'a> {
     sizes: SizeField,
     options: &'a RefineOptions,
     flipper: Flipper<'a>,
-    relaxer: Relaxer,
     /// Edges whose Delaunay property a split or a move may have broken.
     dirty: Vec<Halfedge>,
     /// Number of vertices when they were last put in order.
@@ -166,17 +166,32 @@ struct Refiner<'a> {
 impl Refiner<'_> {
     fn run(&mut self) -> Result<()> {
         self.report.flips += self.flipper.restore_all(&mut self.mesh, &self.points);
-        self.split_until_short()?;
+        for _ in 0..MAX_PASSES {
+            let before = self.mesh.vertex_count();
+            let long = self.all_long_edges();
+            let few = self.split_edges(long)? < local_limit(before);
+            self.restore_dirty();
+            self.order_if_grown();
+            if few {
+                break;
+            }
+            for _ in 0..self.options.pass_relaxations {
+                self.relax_all();
+            }
+            #[cfg(test)]
+            self.mesh.validate();
+        }
         for _ in 0..self.options.final_relaxations {
             self.relax_all();
             if self.report.last_move < SETTLED_MOVE {
                 break;
             }
         }
-        self.split_until_short()
+        self.split_the_rest()
     }
 
-    fn split_until_short(&mut self) -> Result<()> {
+    /// Passes until no edge is too long, each near where the last one split.
+    fn split_the_rest(&mut self) -> Result<()> {
         // Where the last pass worked, if that was not everywhere.
         let mut near: Option<Vec<u32>> = None;
         for _ in 0..MAX_PASSES {
@@ -185,15 +200,12 @@ impl Refiner<'_> {
                 Some(near) => self.long_edges_at(near),
                 None => self.all_long_edges(),
             };
-            self.split_edges(long)?;
-            let added = self.mesh.vertex_count() - before;
+            let added = self.split_edges(long)?;
             if added == 0 && near.take().is_none() {
                 break;
             }
-            self.report.splits += added;
             self.restore_dirty();
-            let reordered = self.order_if_grown();
-            let local = (added as f64) < LOCAL_PASS * before as f64 && !reordered;
+            let local = !self.order_if_grown() && added < local_limit(before);
             near = (local && added > 0).then(|| self.vertices_near(before as u32));
             for _ in 0..self.options.pass_relaxations {
                 match &near {
@@ -218,10 +230,9 @@ impl Refiner<'_> {
         grown
     }
 
-    /// How far an edge is above the length at which it is split, in quarters of an octave; `None` when
-    /// it is not.
+    /// The squared length of an edge over that at which it is split.
     #[inline]
-    fn excess(&self, a: u32, b: u32) -> Option<u32> {
+    fn squared_excess(&self, a: u32, b: u32) -> f64 {
         let rim = self.mesh.rim_count();
         let factor = if (a.max(b) as usize) >= rim {
             self.options.split_factor
@@ -231,24 +242,34 @@ impl Refiner<'_> {
             self.options.split_factor.max(SMALL_RIM_FACTOR)
         };
         let limit = 0.5 * factor * (self.sizes.at(a) + self.sizes.at(b));
-        let squared = (self.points[a as usize] - self.points[b as usize]).norm_squared();
-        // The leading bits of a positive float are its octave and half of an octave.
-        (squared > limit * limit).then(|| ((squared / (limit * limit)).to_bits() >> 51) as u32)
+        let length = (self.points[a as usize] - self.points[b as usize]).norm_squared();
+        length / (limit * limit)
+    }
+
+    /// Lists the edge of `h` from `a` to `b` if it is too long.
+    #[inline]
+    fn collect_long(&self, h: Halfedge, a: u32, b: u32, long: &mut Vec<LongEdge>) {
+        let excess = self.squared_excess(a, b);
+        if excess > 1.0 {
+            // The leading bits of a positive float are its octave and half of the octave.
+            long.push((Reverse((excess.to_bits() >> 51) as u32), h));
+        }
     }
 
     /// All interior edges that are too long, with their excess.
     fn all_long_edges(&self) -> Vec<LongEdge> {
         let mut long = Vec::new();
-        let mut h = 0;
-        for &[a, b, c] in self.mesh.triangles() {
-            for (from, to) in [(a, b), (b, c), (c, a)] {
+        for (t, (&[a, b, c], opposite)) in self.mesh.triangles_and_opposites().enumerate() {
+            let h = 3 * t as Halfedge;
+            for (h, from, to, opposite) in [
+                (h, a, b, opposite[0]),
+                (h + 1, b, c, opposite[1]),
+                (h + 2, c, a, opposite[2]),
+            ] {
                 // each edge once
-                if self.mesh.opposite(h).is_some_and(|g| h < g)
-                    && let Some(excess) = self.excess(from, to)
-                {
-                    long.push((Reverse(excess), h));
+                if opposite.is_some_and(|g| h < g) {
+                    self.collect_long(h, from, to, &mut long);
                 }
-                h += 1;
             }
         }
         long
@@ -259,16 +280,16 @@ impl Refiner<'_> {
         let mut long = Vec::new();
         for &v in vertices {
             for h in self.mesh.corners(v) {
-                if let Some(excess) = self.excess(v, self.mesh.target(h)) {
-                    long.push((Reverse(excess), h));
-                }
+                self.collect_long(h, v, self.mesh.target(h), &mut long);
             }
         }
         long
     }
 
-    /// Splits the edges, longest first to a quarter of an octave, no two of one triangle.
-    fn split_edges(&mut self, mut long: Vec<LongEdge>) -> Result<()> {
+    /// Splits the edges, longest first to a quarter of an octave, no two of one triangle. Returns the
+    /// number of splits.
+    fn split_edges(&mut self, mut long: Vec<LongEdge>) -> Result<usize> {
+        let before = self.mesh.vertex_count();
         long.sort_by_key(|&(class, _)| class);
         let mut used = vec![false; self.mesh.triangles().len()];
         for (_, h) in long {
@@ -292,7 +313,9 @@ impl Refiner<'_> {
             used[g as usize / 3] = true;
             self.split(h, g);
         }
-        Ok(())
+        let added = self.mesh.vertex_count() - before;
+        self.report.splits += added;
+        Ok(added)
     }
 
     fn split(&mut self, h: Halfedge, g: Halfedge) {
@@ -332,9 +355,7 @@ impl Refiner<'_> {
     }
 
     fn relax_vertex(&mut self, v: u32) {
-        let way = self
-            .relaxer
-            .relax(&self.mesh, &mut self.points, &mut self.sizes, v);
+        let way = relax(&self.mesh, &mut self.points, &mut self.sizes, v);
         self.report.last_move = self.report.last_move.max(way);
     }
 
@@ -360,6 +381,11 @@ impl Refiner<'_> {
         near.sort_unstable();
         near
     }
+}
+
+/// Number of new vertices from which a pass that starts with `before` relaxes the whole patch.
+fn local_limit(before: usize) -> usize {
+    (LOCAL_PASS * before as f64) as usize + 1
 }
 
 #[cfg(test)]

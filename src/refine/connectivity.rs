@@ -165,12 +165,12 @@ impl Connectivity {
 
     fn find_starts(&mut self) -> Result<()> {
         let mut corners = vec![0u32; self.start.len()];
-        for h in 0..self.opposite.len() as u32 {
-            let v = self.origin(h) as usize;
-            corners[v] += 1;
-            if self.rim_edges_of(v as u32).is_empty() {
-                self.start[v] = h;
-            }
+        for (h, &v) in self.origins.iter().enumerate() {
+            corners[v as usize] += 1;
+            self.start[v as usize] = h as u32;
+        }
+        for &h in &self.rim_edges {
+            self.start[self.origins[h as usize] as usize] = NONE;
         }
         match (0..corners.len()).find(|&v| self.corners(v as u32).count() != corners[v] as usize) {
             Some(v) => Err(topology(format!(

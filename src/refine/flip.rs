@@ -72,7 +72,6 @@ impl<'a> Flipper<'a> {
         granted - budget
     }
 
-    #[inline]
     fn restore_from(
         &mut self,
         mesh: &mut Connectivity,
@@ -80,23 +79,17 @@ impl<'a> Flipper<'a> {
         first: Halfedge,
         budget: &mut usize,
     ) {
-        // Nearly all edges are fine: look at the first before it goes through the stack.
-        if mesh
-            .opposite(first)
-            .is_some_and(|g| wants_flip(mesh, points, first, g))
-        {
-            self.stack.push(first);
-            self.empty_stack(mesh, points, budget);
-        }
-    }
-
-    fn empty_stack(&mut self, mesh: &mut Connectivity, points: &[Vec3], budget: &mut usize) {
-        while let Some(h) = self.stack.pop() {
-            let Some(g) = mesh.opposite(h) else { continue };
-            if *budget > 0 && wants_flip(mesh, points, h, g) && self.may_flip(mesh, h, g) {
+        let mut edge = Some(first);
+        while let Some(h) = edge {
+            if let Some(g) = mesh.opposite(h)
+                && *budget > 0
+                && wants_flip(mesh, points, h, g)
+                && self.may_flip(mesh, h, g)
+            {
                 self.stack.extend(mesh.flip(h, g));
                 *budget -= 1;
             }
+            edge = self.stack.pop();
         }
     }
 

@@ -7,8 +7,9 @@
 //! vertex, so there is nothing to remove.
 //!
 //! Each pass splits an independent set of too long edges, longest first, restores the Delaunay
-//! property and relaxes; passes that split little work only near their new vertices. `O(n log n)` for
-//! `n` triangles in the result, on every input met so far.
+//! property and relaxes. When a pass splits little, the patch gets its final relaxations; what they make
+//! too long is split in passes that work only near their new vertices. `O(n log n)` for `n` triangles in
+//! the result, on every input met so far.
 //!
 //! Rim vertices keep their bits, rim edges are neither split nor flipped. Not guaranteed: that no
 //! two triangles of a strongly twisted patch intersect; that edges just under the splitting threshold
@@ -62,7 +63,8 @@ pub(crate) struct RefineOptions {
     pub(crate) grading: f64,
     /// Relaxations after each pass of splits.
     pub(crate) pass_relaxations: usize,
-    /// Relaxations of the whole patch when nothing is left to split.
+    /// Relaxations of the whole patch when little is left to split; at least `pass_relaxations` if
+    /// the last pass split anything.
     pub(crate) final_relaxations: usize,
     /// Refinement that needs more vertices than this fails.
     pub(crate) max_vertices: usize,
@@ -166,13 +168,17 @@ struct Refiner<'a> {
 impl Refiner<'_> {
     fn run(&mut self) -> Result<()> {
         self.report.flips += self.flipper.restore_all(&mut self.mesh, &self.points);
+        let mut relaxations = self.options.final_relaxations;
         for _ in 0..MAX_PASSES {
             let before = self.mesh.vertex_count();
             let long = self.all_long_edges();
-            let few = self.split_edges(long)? < local_limit(before);
+            let added = self.split_edges(long)?;
             self.restore_dirty();
             self.order_if_grown();
-            if few {
+            if added < local_limit(before) {
+                if added > 0 {
+                    relaxations = relaxations.max(self.options.pass_relaxations);
+                }
                 break;
             }
             for _ in 0..self.options.pass_relaxations {
@@ -181,7 +187,7 @@ impl Refiner<'_> {
             #[cfg(test)]
             self.mesh.validate();
         }
-        for _ in 0..self.options.final_relaxations {
+        for _ in 0..relaxations {
             self.relax_all();
             if self.report.last_move < SETTLED_MOVE {
                 break;

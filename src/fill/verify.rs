@@ -2,24 +2,26 @@
 
 use super::hole::Hole;
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::aabb::Aabb;
 use crate::math::cross_normal;
 use crate::mesh::connectivity::BOUNDARY;
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::PatchSurface;
-use crate::quality::spatial::Aabb;
 
 /// A triangle has no area when its double area is below this share of the squared rim edge length, which
 /// is the unit of the hole's coordinates.
 const SMALLEST_DOUBLE_AREA: f64 = 2e-10;
 
-/// A patch that goes further from the middle of its rim than this many diameters of the rim has run away.
-const FARTHEST: f64 = 1.0;
+/// A patch that goes further from the middle of its rim than this many diameters of the rim has run away: half a
+/// sphere goes 0.35, two thirds of one 0.61.
+const FARTHEST: f64 = 0.75;
 
 /// Checks the patch by itself and against the rim.
 ///
 /// Every rim edge must have one triangle, which runs along it as the polygon does; every other edge two
 /// triangles of opposite direction, and no counterpart in the mesh; no triangle may be degenerate or
-/// without area; all points must be finite and near the hole.
+/// without area; all points must be finite, near the hole and used; the Euler characteristic must be that
+/// of a disk, less one for each island.
 ///
 /// # Errors
 /// [`ErrorKind::Topology`] or [`ErrorKind::Geometry`] with the first violation found.
@@ -55,6 +57,16 @@ pub(crate) fn check_patch(hole: &Hole, surface: &PatchSurface) -> Result<()> {
         edges.extend((0..3).map(|k| (t[k], t[(k + 1) % 3])));
     }
     edges.sort_unstable_by_key(|&(a, b)| (a.min(b), a.max(b), a > b));
+    let mut is_used = vec![false; surface.points.len()];
+    surface
+        .triangles
+        .iter()
+        .flatten()
+        .for_each(|&v| is_used[v as usize] = true);
+    if let Some(v) = is_used.iter().position(|used| !used) {
+        return Err(topology(format!("vertex {v} of the patch has no triangle")));
+    }
+    let mut edge_count = 0;
     let mut rim_edges_met = 0;
     for same in edges.chunk_by(|e, f| e == f || (e.0 == f.1 && e.1 == f.0)) {
         let (a, b) = same[0];
@@ -71,12 +83,22 @@ pub(crate) fn check_patch(hole: &Hole, surface: &PatchSurface) -> Result<()> {
             )));
         }
         rim_edges_met += usize::from(is_rim);
+        edge_count += 1;
     }
     if rim_edges_met != rim_edges.len() {
         return Err(topology(format!(
             "{} of {} rim edges would stay open",
             rim_edges.len() - rim_edges_met,
             rim_edges.len()
+        )));
+    }
+    // One face over the polygon, whose bridges are passed twice.
+    let bridges = (m - rim_edges.len()) / 2;
+    let expected = (hole.points.len() + 1) as i64 - (rim_edges.len() + bridges) as i64;
+    let found = (surface.points.len() + surface.triangles.len()) as i64 - edge_count;
+    if found != expected {
+        return Err(topology(format!(
+            "the patch has the Euler characteristic {found} instead of {expected}"
         )));
     }
     Ok(())

@@ -1,9 +1,10 @@
 //! Ear clipping of a polygon in space, cheapest ear first.
 //!
 //! An ear is the triangle of three successive positions. The one with the least cost is cut off
-//! until few enough positions are left for a better method. The cost is the length of the new edge,
-//! raised when the ear turns away from its two known neighbours. Ears that face like the rim round
-//! the hole go before all others: on a densely sampled rim they are the ones that do not fold over.
+//! until few enough positions are left for a better method. The cost is the radius of the ear's
+//! circumscribed circle, or the length of the new edge if that is more: ears as in a Delaunay triangulation
+//! go first and those along a densely sampled, almost straight rim last. It is raised when the ear turns away from its two known
+//! neighbours, and more when it does not face like the rim round the hole, where it may fold over.
 //! The known ideas of ear clipping are combined here; no paper is followed.
 //!
 //! Time O(m log m), memory O(m).
@@ -23,6 +24,9 @@ const FREE_TURN: f64 = 0.3;
 const TURN_PENALTY: f64 = 10.0;
 /// Cosine, 60 degrees, up to which an ear faces like the rim edges that it replaces.
 const FACING_SHARE: f64 = 0.5;
+/// Factor of the cost of an ear that does not face like its rim, as at the flat end of a tube, where the
+/// rim's normals say nothing.
+const DISTRUST: f64 = 8.0;
 /// Ears cut between two questions whether to go on.
 const EARS_PER_CHECK: usize = 4096;
 
@@ -54,19 +58,12 @@ pub(super) fn clip(
     Ok(clipper.finish())
 }
 
-/// How far an ear can be trusted not to fold the surface over; the trusted ones go first.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Rank {
-    FacesLikeRim,
-    /// As at the flat end of a tube, where the rim's normals say nothing.
-    FacesLikePolygon,
-    Folded,
-}
 
 /// A place in the queue; stale when the position has been cut or has a newer version.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Entry {
-    rank: Rank,
+    /// Whether the ear faces away from both the rim and the polygon; such ears go last.
+    is_folded: bool,
     /// Bits of a cost that is not negative: they sort like the number.
     cost: u64,
     position: u32,
@@ -137,20 +134,17 @@ impl<'a> Clipper<'a> {
         }
         let normal = doubled / doubled_area_sq.sqrt();
         let facing = self.facing[before] + self.facing[i];
-        let rank = if normal.dot(&facing) > FACING_SHARE * facing.norm() {
-            Rank::FacesLikeRim
-        } else if normal.dot(&self.axis) > 0.0 {
-            Rank::FacesLikePolygon
-        } else {
-            Rank::Folded
-        };
+        let faces_rim = normal.dot(&facing) > FACING_SHARE * facing.norm();
+        let distrust = if faces_rim { 1.0 } else { DISTRUST };
         let turn = |edge: usize| {
             1.0 - normal.dot(&self.normals[edge].unwrap_or_else(|| unit(self.facing[edge])))
         };
         let excess = (turn(before).max(turn(i)) - FREE_TURN).max(0.0);
-        let cost = (c - a).norm() * (1.0 + TURN_PENALTY * excess);
+        let sides_sq = (b - a).norm_squared() * (c - b).norm_squared() * (c - a).norm_squared();
+        let radius = (sides_sq / doubled_area_sq).sqrt() / 2.0;
+        let cost = radius.max((c - a).norm()) * distrust * (1.0 + TURN_PENALTY * excess);
         Some(Entry {
-            rank,
+            is_folded: !faces_rim && normal.dot(&self.axis) <= 0.0,
             cost: cost.to_bits(),
             position,
             version: self.version[i],
@@ -271,7 +265,7 @@ mod tests {
             let alive = (0..polygon.len() as u32).filter(|&i| clipper.alive[i as usize]);
             let fresh = alive
                 .filter_map(|i| clipper.entry(i))
-                .map(|e| (e.rank, e.cost, e.position));
+                .map(|e| (e.is_folded, e.cost, e.position));
             let Some((_, _, position)) = fresh.min() else {
                 break;
             };

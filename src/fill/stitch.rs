@@ -8,10 +8,12 @@ use super::report::{Attempt, HoleReport, HoleStatus};
 use super::verify::check_against_mesh;
 use crate::error::{Error, ErrorKind};
 use crate::math::Vec3;
+use crate::math::aabb::Aabb;
+use crate::math::box_tree::BoxTree;
 use crate::mesh::trimesh::TriMesh;
 use crate::quality::Surface;
 use crate::quality::self_intersection::{AppendedPatch, Search, count};
-use crate::quality::spatial::{Aabb, FaceIndex};
+use crate::quality::spatial::FaceIndex;
 use std::ops::Range;
 
 /// Stitches planned patches into a mesh.
@@ -21,7 +23,9 @@ pub(super) struct Stitcher<'a> {
     options: &'a FillOptions,
     interrupted: &'a (dyn Fn() -> bool + Sync),
     /// Boxes of all planned patches.
-    boxes: FaceIndex,
+    boxes: BoxTree,
+    /// Holes whose patch is not the planned one, with its box.
+    replanned: Vec<(usize, Aabb)>,
     /// Triangles of the patch of each hole, once it is stitched.
     stitched: Vec<Range<usize>>,
 }
@@ -50,7 +54,7 @@ impl<'a> Stitcher<'a> {
         interrupted: &'a (dyn Fn() -> bool + Sync),
         plans: &[Option<&Plan>],
     ) -> Self {
-        let boxes = FaceIndex::of_boxes(plans.len(), |i| {
+        let boxes = BoxTree::build(plans.len(), |i| {
             plans[i].map_or_else(Aabb::empty, |plan| plan_box(mesh, plan))
         });
         let stitched = vec![0..0; plans.len()];
@@ -60,6 +64,7 @@ impl<'a> Stitcher<'a> {
             options,
             interrupted,
             boxes,
+            replanned: Vec::new(),
             stitched,
         }
     }
@@ -93,6 +98,7 @@ impl<'a> Stitcher<'a> {
                             < with_patches + plan.self_intersections =>
                 {
                     with_patches = count;
+                    self.replanned.push((index, plan_box(self.mesh, &other)));
                     plan = other;
                 }
                 Err(failure) if !is_usable => {
@@ -161,9 +167,17 @@ impl<'a> Stitcher<'a> {
 
     /// Pairs of triangles of the patch and of the patches stitched so far that intersect.
     fn intersections_with_patches(&self, plan: &Plan) -> usize {
+        let own_box = plan_box(self.mesh, plan);
         let mut near = Vec::new();
-        self.boxes
-            .overlapping(&plan_box(self.mesh, plan), &mut near);
+        self.boxes.overlapping(&own_box, &mut near);
+        let other = |i: &u32| !self.replanned.iter().any(|&(hole, _)| hole == *i as usize);
+        near.retain(other);
+        let replanned = self.replanned.iter();
+        near.extend(
+            replanned
+                .filter(|(_, reach)| reach.overlaps(&own_box))
+                .map(|&(hole, _)| hole as u32),
+        );
         let triangles = plan.triangles(self.mesh.positions().len());
         let patch = AppendedPatch {
             points: &plan.points,

@@ -1,5 +1,7 @@
-//! Vectors, planes and the sparse solver: no mesh, no hole.
+//! Vectors, planes, boxes and the sparse solver: no mesh, no hole.
 
+pub(crate) mod aabb;
+pub(crate) mod box_tree;
 pub(crate) mod plane;
 pub(crate) mod sparse;
 

@@ -2,6 +2,16 @@
 
 pub(crate) mod attributes;
 pub(crate) mod connectivity;
+#[cfg(test)]
+mod connectivity_oracle;
 pub(crate) mod defects;
+mod linking;
+mod rim_table;
 pub(crate) mod rings;
+mod survey;
 pub(crate) mod trimesh;
+
+#[cfg(test)]
+mod connectivity_tests;
+#[cfg(test)]
+mod rings_tests;

@@ -5,6 +5,12 @@ use super::connectivity::Connectivity;
 use super::defects::MeshDefects;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::Vec3;
+use rayon::prelude::*;
+
+/// Corners are numbered from four times the triangle on; the last numbers mark links that are no halfedge.
+const MOST_TRIANGLES: usize = (1 << 30) - 2;
+/// Vertices checked by one task.
+const VERTEX_CHUNK: usize = 1 << 14;
 
 /// A triangle mesh with attributes, built and validated once.
 ///
@@ -28,7 +34,7 @@ impl TriMesh {
     /// # Errors
     /// [`ErrorKind::InvalidInput`] when a coordinate is not finite, a triangle names a vertex that does
     /// not exist, or there are more vertices or halfedges than 32-bit indices can name
-    /// (about 1.4 billion triangles).
+    /// (about 1 billion triangles).
     ///
     /// # Complexity
     /// Linear in the number of vertices and triangles; no hashing.
@@ -50,8 +56,8 @@ impl TriMesh {
         face_attributes: Attributes,
     ) -> Result<Self> {
         check_sizes(&positions, &triangles, &vertex_attributes, &face_attributes)?;
-        check_values(&positions, &triangles)?;
-        let (connectivity, defects) = Connectivity::build(positions.len(), &triangles);
+        check_finite(&positions)?;
+        let (connectivity, defects) = Connectivity::build(positions.len(), &triangles)?;
         Ok(Self {
             positions,
             triangles,
@@ -150,8 +156,7 @@ fn check_sizes(
     vertex_attributes: &Attributes,
     face_attributes: &Attributes,
 ) -> Result<()> {
-    // Three values at the top of the range mark links that are no halfedge.
-    if positions.len() >= u32::MAX as usize || triangles.len() >= (u32::MAX as usize - 3) / 3 {
+    if positions.len() >= u32::MAX as usize || triangles.len() > MOST_TRIANGLES {
         return Err(invalid(format!(
             "{} vertices and {} triangles are more than 32-bit indices can name",
             positions.len(),
@@ -172,21 +177,22 @@ fn check_sizes(
     Ok(())
 }
 
-fn check_values(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<()> {
+fn check_finite(positions: &[[f64; 3]]) -> Result<()> {
     let not_finite = |p: &[f64; 3]| !p.iter().all(|c| c.is_finite());
-    if let Some(v) = positions.iter().position(not_finite) {
-        let [x, y, z] = positions[v];
-        return Err(invalid(format!(
-            "vertex {v} is not finite: ({x}, {y}, {z})"
-        )));
+    let first = positions
+        .par_chunks(VERTEX_CHUNK)
+        .enumerate()
+        .find_map_first(|(chunk, points)| {
+            let offset = points.iter().position(not_finite)?;
+            Some(chunk * VERTEX_CHUNK + offset)
+        });
+    match first {
+        Some(v) => {
+            let [x, y, z] = positions[v];
+            Err(invalid(format!(
+                "vertex {v} is not finite: ({x}, {y}, {z})"
+            )))
+        }
+        None => Ok(()),
     }
-    let count = positions.len() as u32;
-    let out_of_range = |t: &[u32; 3]| t.iter().any(|&v| v >= count);
-    if let Some(f) = triangles.iter().position(out_of_range) {
-        return Err(invalid(format!(
-            "triangle {f} names vertices {:?}, but there are only {count}",
-            triangles[f]
-        )));
-    }
-    Ok(())
 }

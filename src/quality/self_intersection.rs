@@ -1,6 +1,6 @@
 //! Counts the improper intersections of a patch with itself and with the mesh it was made for.
 //!
-//! Small patches are swept along their longest axis; large ones get a [`FaceIndex`] of their own
+//! Small patches are swept along their longest axis; large ones get a [`BoxTree`] of their own
 //! and are searched in parallel. The mesh is asked through its index, triangle by triangle.
 //!
 //! Complexity: O(m log n + k) for m patch triangles, n mesh faces and k pairs of overlapping boxes.
@@ -11,9 +11,11 @@
 use super::{
     Surface,
     intersect::{COPLANAR, intersects_improperly},
-    spatial::{Aabb, FaceIndex},
+    spatial::FaceIndex,
 };
 use crate::math::Vec3;
+use crate::math::aabb::Aabb;
+use crate::math::box_tree::BoxTree;
 use rayon::prelude::*;
 
 /// Patch triangles up to which sweeping beats building a tree.
@@ -195,7 +197,7 @@ impl Task<'_> {
     }
 
     fn search_in_parallel(&self) -> SelfIntersections {
-        let own = FaceIndex::of_boxes(self.boxes.len(), |i| self.boxes[i]);
+        let own = BoxTree::build(self.boxes.len(), |i| self.boxes[i]);
         let chunk_count = self.boxes.len().div_ceil(CHUNK);
         let chunks = (0..chunk_count).into_par_iter().map(|c| {
             let mut tally = SelfIntersections::default();

@@ -1,0 +1,321 @@
+//! A static tree of boxes, for searches by box and by distance.
+//!
+//! Boxes are sorted by the Morton code of their centre and grouped by eight, level by level, into an
+//! implicit tree: no pointers, 31 bytes a box. They are kept in single precision relative to the box of
+//! all and rounded outwards, so that a query never misses a box; it may return one that is apart by a
+//! single-precision rounding.
+//!
+//! Complexity: build O(n log n) in parallel; box query O(log n + hits) for boxes of the faces of a
+//! surface of the usual kind, O(n) at worst. The result does not depend on the thread count.
+
+use super::Vec3;
+use super::aabb::Aabb;
+use rayon::prelude::*;
+
+/// Children per node: a node's boxes fill three cache lines and the tree is eight levels for 4 M.
+const FANOUT: usize = 8;
+/// Boxes below which work is not worth sending to another thread.
+const GRAIN: usize = 4096;
+/// Boxes are sorted within at most `8 ^ 5` cells of space.
+const MOST_CELL_LEVELS: u32 = 5;
+
+/// A box in the tree's own units.
+#[derive(Clone, Copy, Debug)]
+struct PackedBox {
+    lo: [f32; 3],
+    hi: [f32; 3],
+}
+
+impl PackedBox {
+    const EMPTY: Self = Self {
+        lo: [f32::INFINITY; 3],
+        hi: [f32::NEG_INFINITY; 3],
+    };
+
+    fn union(self, other: &Self) -> Self {
+        Self {
+            lo: std::array::from_fn(|k| self.lo[k].min(other.lo[k])),
+            hi: std::array::from_fn(|k| self.hi[k].max(other.hi[k])),
+        }
+    }
+
+    fn centre(&self) -> [f32; 3] {
+        std::array::from_fn(|k| 0.5 * self.lo[k] + 0.5 * self.hi[k])
+    }
+
+    fn overlaps(&self, other: &Self) -> bool {
+        // Without short cuts: six comparisons are cheaper than one mispredicted branch.
+        let mut apart = false;
+        for k in 0..3 {
+            apart |= self.lo[k] > other.hi[k];
+            apart |= other.lo[k] > self.hi[k];
+        }
+        !apart
+    }
+
+    fn distance_sq(&self, p: &Vec3) -> f64 {
+        let outside = |k: usize| {
+            (f64::from(self.lo[k]) - p[k])
+                .max(p[k] - f64::from(self.hi[k]))
+                .max(0.0)
+        };
+        let d: [f64; 3] = std::array::from_fn(outside);
+        d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
+    }
+}
+
+/// The affine map from mesh coordinates to the cube of side two round the origin.
+#[derive(Clone, Copy, Debug)]
+struct Frame {
+    origin: Vec3,
+    scale: f64,
+}
+
+impl Frame {
+    fn fit(bounds: &Aabb) -> Self {
+        let half = bounds.hi * 0.5 - bounds.lo * 0.5;
+        let extent = half.max();
+        let usable = extent.is_finite() && extent.recip().is_finite() && extent > 0.0;
+        let origin = bounds.lo * 0.5 + bounds.hi * 0.5;
+        Self {
+            origin: origin.map(|x| if x.is_finite() { x } else { 0.0 }),
+            scale: if usable { extent.recip() } else { 1.0 },
+        }
+    }
+
+    /// Monotone in each coordinate, so order between mapped coordinates is never reversed.
+    fn map(&self, p: &Vec3) -> Vec3 {
+        (p - self.origin) * self.scale
+    }
+
+    fn pack(&self, b: &Aabb) -> PackedBox {
+        let (lo, hi) = (self.map(&b.lo), self.map(&b.hi));
+        PackedBox {
+            lo: std::array::from_fn(|k| round_down(lo[k])),
+            hi: std::array::from_fn(|k| -round_down(-hi[k])),
+        }
+    }
+}
+
+/// A single-precision number below `x` by at most three units in the last place.
+///
+/// Never by a branch on the direction of rounding, which no processor can predict.
+fn round_down(x: f64) -> f32 {
+    let nearest = x as f32;
+    let margin = nearest.abs() * f32::EPSILON + f32::MIN_POSITIVE;
+    // Infinity stays what it is.
+    nearest - margin.min(f32::MAX)
+}
+
+/// Finds boxes by box and by distance.
+#[derive(Clone, Debug)]
+pub(crate) struct BoxTree {
+    frame: Frame,
+    /// Ids of the boxes along the Morton curve.
+    order: Vec<u32>,
+    /// Boxes of `order`, then of each group of [`FANOUT`] of them, and so on up to one root.
+    boxes: Vec<PackedBox>,
+    /// Where each level starts in `boxes`, and after the last its end.
+    levels: Vec<usize>,
+}
+
+impl BoxTree {
+    /// Makes the tree of `count` boxes, at most `u32::MAX`; the id of a box is its argument.
+    pub(crate) fn build(count: usize, box_of: impl Fn(usize) -> Aabb + Sync) -> Self {
+        let indices = || (0..count).into_par_iter().with_min_len(GRAIN);
+        let bounds = indices()
+            .map(&box_of)
+            .reduce(Aabb::empty, |a, b| a.union(&b));
+        let frame = Frame::fit(&bounds);
+
+        // Code and id share one word, so the order is total and a box moves as eight bytes.
+        let id_bits = usize::BITS - count.leading_zeros();
+        let axis_bits = ((u64::BITS - id_bits) / 3).min(21);
+        let (mut keys, mut unsorted) = (Vec::new(), Vec::new());
+        indices()
+            .map(|id| {
+                let b = frame.pack(&box_of(id));
+                ((morton(&b.centre(), axis_bits) << id_bits) | id as u64, b)
+            })
+            .unzip_into_vecs(&mut keys, &mut unsorted);
+        let id_mask = (1u64 << id_bits) - 1;
+        let order: Vec<u32> = sorted(keys, id_bits + 3 * axis_bits)
+            .par_iter()
+            .with_min_len(GRAIN)
+            .map(|k| (k & id_mask) as u32)
+            .collect();
+
+        let mut boxes = Vec::with_capacity(count + count / (FANOUT - 1) + FANOUT);
+        boxes.par_extend(
+            order
+                .par_iter()
+                .with_min_len(GRAIN)
+                .map(|&id| unsorted[id as usize]),
+        );
+        drop(unsorted);
+        let mut levels = vec![0, count];
+        let mut start = 0;
+        while boxes.len() - start > 1 {
+            let parents: Vec<PackedBox> = boxes[start..]
+                .par_chunks(FANOUT)
+                .with_min_len(GRAIN / FANOUT)
+                .map(|group| group.iter().fold(PackedBox::EMPTY, PackedBox::union))
+                .collect();
+            start = boxes.len();
+            boxes.extend_from_slice(&parents);
+            levels.push(boxes.len());
+        }
+        Self {
+            frame,
+            order,
+            boxes,
+            levels,
+        }
+    }
+
+    /// Number of boxes.
+    pub(crate) fn len(&self) -> usize {
+        self.order.len()
+    }
+
+    /// Puts the ids of all boxes that overlap `query` into `found`, in ascending order; `found` is cleared
+    /// first.
+    ///
+    /// Boxes that are apart by no more than a single-precision rounding may be included.
+    pub(crate) fn overlapping(&self, query: &Aabb, found: &mut Vec<u32>) {
+        found.clear();
+        if self.order.is_empty() {
+            return;
+        }
+        let query = self.frame.pack(query);
+        self.collect(self.levels.len() - 2, 0, &query, found);
+        found.sort_unstable();
+    }
+
+    fn collect(&self, level: usize, first: usize, query: &PackedBox, found: &mut Vec<u32>) {
+        for node in self.group(level, first) {
+            if !self.boxes[self.levels[level] + node].overlaps(query) {
+                continue;
+            }
+            match level {
+                0 => found.push(self.order[node]),
+                _ => self.collect(level - 1, node * FANOUT, query, found),
+            }
+        }
+    }
+
+    /// The siblings from `first` on, as offsets within their level.
+    fn group(&self, level: usize, first: usize) -> std::ops::Range<usize> {
+        let size = self.levels[level + 1] - self.levels[level];
+        first..(first + FANOUT).min(size)
+    }
+
+    /// Calls `visit` with the id of every box that may be nearer to `p` than what was found, near ones
+    /// first; `visit` returns the squared distance of the nearest thing found so far, infinite when there
+    /// is none.
+    ///
+    /// `p` must be finite.
+    pub(crate) fn search_near(&self, p: &Vec3, visit: impl FnMut(u32) -> f64) {
+        if self.order.is_empty() {
+            return;
+        }
+        let mut search = NearSearch {
+            tree: self,
+            p: self.frame.map(p),
+            visit,
+            bound: f64::INFINITY,
+        };
+        search.descend(self.levels.len() - 2, 0);
+    }
+}
+
+struct NearSearch<'a, F> {
+    tree: &'a BoxTree,
+    /// The point in the tree's units.
+    p: Vec3,
+    visit: F,
+    /// Squared distance of the nearest thing found, in the tree's units.
+    bound: f64,
+}
+
+impl<F: FnMut(u32) -> f64> NearSearch<'_, F> {
+    fn descend(&mut self, level: usize, first: usize) {
+        let tree = self.tree;
+        let mut near = [(0.0, 0); FANOUT];
+        let mut count = 0;
+        for node in tree.group(level, first) {
+            let distance_sq = tree.boxes[tree.levels[level] + node].distance_sq(&self.p);
+            if distance_sq <= self.bound {
+                near[count] = (distance_sq, node);
+                count += 1;
+            }
+        }
+        let near = &mut near[..count];
+        near.sort_unstable_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+        for &(distance_sq, node) in near.iter() {
+            if distance_sq > self.bound {
+                break;
+            }
+            match level {
+                0 => {
+                    let scale = tree.frame.scale;
+                    self.bound = (self.visit)(tree.order[node]) * scale * scale;
+                }
+                _ => self.descend(level - 1, node * FANOUT),
+            }
+        }
+    }
+}
+
+/// Sorts keys of `bits` bits: first into cells by their highest bits, then within each cell in parallel.
+fn sorted(mut keys: Vec<u64>, bits: u32) -> Vec<u64> {
+    if keys.len() < GRAIN {
+        keys.sort_unstable();
+        return keys;
+    }
+    // A surface meets about 4 ^ level cells: this leaves some hundred keys in each.
+    let cell_bits = 3 * (keys.len().ilog2() / 2 - 4).min(MOST_CELL_LEVELS);
+    let cell = |key: u64| (key >> (bits - cell_bits)) as usize;
+    let mut ends = vec![0_usize; 1 << cell_bits];
+    for &key in &keys {
+        ends[cell(key)] += 1;
+    }
+    let mut sum = 0;
+    for end in &mut ends {
+        (*end, sum) = (sum, sum + *end);
+    }
+    let mut sorted = vec![0; keys.len()];
+    for key in keys {
+        let place = &mut ends[cell(key)];
+        sorted[*place] = key;
+        *place += 1;
+    }
+    let mut rest = sorted.as_mut_slice();
+    let mut cells = Vec::new();
+    let mut start = 0;
+    for end in ends {
+        let (keys, later) = rest.split_at_mut(end - start);
+        if keys.len() > 1 {
+            cells.push(keys);
+        }
+        (rest, start) = (later, end);
+    }
+    cells.into_par_iter().for_each(<[u64]>::sort_unstable);
+    sorted
+}
+
+/// Position along the Morton curve of a point of the cube of side two, with `bits` per axis.
+fn morton(p: &[f32; 3], bits: u32) -> u64 {
+    let cells = (1u64 << bits) as f32;
+    let interleave = |x: f32| {
+        // The cast saturates: points outside the cube and NaN go to a cell at its rim.
+        let cell = (((x + 1.0) * 0.5 * cells) as u64).min((1 << bits) - 1);
+        let mut v = cell;
+        v = (v | (v << 32)) & 0x001f_0000_0000_ffff;
+        v = (v | (v << 16)) & 0x001f_0000_ff00_00ff;
+        v = (v | (v << 8)) & 0x100f_00f0_0f00_f00f;
+        v = (v | (v << 4)) & 0x10c3_0c30_c30c_30c3;
+        (v | (v << 2)) & 0x1249_2492_4924_9249
+    };
+    interleave(p[0]) | (interleave(p[1]) << 1) | (interleave(p[2]) << 2)
+}

@@ -174,7 +174,8 @@ fn run(case: &Case, data: &MeshData, method: Method) -> Outcome {
 
 /// Says it past the test harness, which shows the output of failed tests only.
 fn say(line: &str) {
-    writeln!(std::io::stderr(), "{line}").unwrap();
+    let mut out = std::io::stderr();
+    writeln!(out, "{line}").unwrap();
 }
 
 #[test]

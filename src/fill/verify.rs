@@ -54,9 +54,9 @@ pub(crate) fn check_patch(hole: &Hole, surface: &PatchSurface) -> Result<()> {
         if cross_normal(a, b, c).norm() < SMALLEST_DOUBLE_AREA {
             return Err(geometry("a new triangle has no area".to_owned()));
         }
-        edges.extend((0..3).map(|k| (t[k], t[(k + 1) % 3])));
+        edges.extend((0..3).map(|k| edge_key(t[k], t[(k + 1) % 3])));
     }
-    edges.sort_unstable_by_key(|&(a, b)| (a.min(b), a.max(b), a > b));
+    edges.sort_unstable();
     let mut is_used = vec![false; surface.points.len()];
     surface
         .triangles
@@ -68,12 +68,12 @@ pub(crate) fn check_patch(hole: &Hole, surface: &PatchSurface) -> Result<()> {
     }
     let mut edge_count = 0;
     let mut rim_edges_met = 0;
-    for same in edges.chunk_by(|e, f| e == f || (e.0 == f.1 && e.1 == f.0)) {
-        let (a, b) = same[0];
+    for same in edges.chunk_by(|e, f| e >> 1 == f >> 1) {
+        let (a, b) = edge_of(same[0]);
         let is_rim = rim_edges.binary_search(&(a, b)).is_ok();
         let is_right = match same {
             [_] => is_rim,
-            [e, f] => e.0 == f.1 && !is_rim && !hole.is_joined(a, b),
+            [e, f] => e != f && !is_rim && !hole.is_joined(a, b),
             _ => false,
         };
         if !is_right {
@@ -102,6 +102,21 @@ pub(crate) fn check_patch(hole: &Hole, surface: &PatchSurface) -> Result<()> {
         )));
     }
     Ok(())
+}
+
+/// A directed edge as one number, so that the two directions of an edge sort next to each other. Patch vertices
+/// are fewer than 2^31.
+fn edge_key(a: u32, b: u32) -> u64 {
+    u64::from(a.min(b)) << 32 | u64::from(a.max(b)) << 1 | u64::from(a > b)
+}
+
+fn edge_of(key: u64) -> (u32, u32) {
+    let (low, high) = ((key >> 32) as u32, (key as u32) >> 1);
+    if key & 1 == 0 {
+        (low, high)
+    } else {
+        (high, low)
+    }
 }
 
 /// Checks a patch, given by its triangles in the mesh's vertex indices, against the mesh as it is now:

@@ -105,7 +105,7 @@ done
 
 say "summary"
 grep -E '^ *(Running|Doc-tests) |^test result' "$scratch/tests"
-grep SKIPPED "$scratch/tests" | sort -u || true
+grep -E 'SKIPPED|^CASES' "$scratch/tests" | sort -u || true
 for reason in ${skipped[@]+"${skipped[@]}"}; do
     printf '!!! SKIPPED: %s\n' "$reason"
 done

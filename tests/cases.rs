@@ -174,7 +174,8 @@ fn run(case: &Case, data: &MeshData, method: Method) -> Outcome {
 
 /// Says it past the test harness, which shows the output of failed tests only.
 fn say(line: &str) {
-    writeln!(std::io::stderr(), "{line}").unwrap();
+    let mut out = std::io::stderr();
+    writeln!(out, "{line}").unwrap();
 }
 
 #[test]
@@ -182,6 +183,10 @@ fn every_case_is_filled_by_every_method() {
     let cases = find_cases();
     if cases.is_empty() {
         say("CASES: skipped, no data");
+        say(&format!(
+            "SKIPPED: the real models: {} has none",
+            folder().display()
+        ));
         return;
     }
     let next = AtomicUsize::new(0);

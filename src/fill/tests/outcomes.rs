@@ -243,7 +243,8 @@ fn loops_that_are_not_those_of_the_mesh_are_refused() {
         "stale",
     );
     // Those that the caller changed.
-    let changes: [(&str, fn(&mut BoundaryLoops)); 6] = [
+    type Change = fn(&mut BoundaryLoops);
+    let changes: [(&str, Change); 6] = [
         ("removed", |b| drop(b.loops.remove(0))),
         ("swapped", |b| b.loops.swap(1, 2)),
         ("vertex added", |b| b.loops[1].vertices.push(0)),

@@ -22,9 +22,9 @@ const UNIFORM_RIM: f64 = 250.0;
 /// hole then takes about `11 m` triangles.
 const LIMIT_GRADING: f64 = 0.2;
 
-/// Smallest target length over the mean of the rim: coincident rim vertices must not ask for
-/// unlimited subdivision.
-const MIN_RELATIVE_SIZE: f64 = 1e-3;
+/// Smallest target length over the mean of the rim: each halving of the length at a few degenerate edges
+/// would add as many vertices as the one before, and none of them shape.
+const MIN_RELATIVE_SIZE: f64 = 0.05;
 
 /// The growth of the target edge length with distance for a hole with `rim_count` edges.
 ///

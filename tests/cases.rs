@@ -182,6 +182,10 @@ fn every_case_is_filled_by_every_method() {
     let cases = find_cases();
     if cases.is_empty() {
         say("CASES: skipped, no data");
+        say(&format!(
+            "SKIPPED: the real models: {} has none",
+            folder().display()
+        ));
         return;
     }
     let next = AtomicUsize::new(0);

@@ -246,6 +246,7 @@ mod tests {
             planarity: 0.0,
             class,
             halfedges: Vec::new(),
+            reversed: Vec::new(),
             host: None,
             bounds: Aabb {
                 lo: low,

@@ -93,7 +93,7 @@ fn every_fixture_has_the_loops_and_classes_that_it_was_made_with() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(400) })]
 
     #[test]
     fn loops_of_random_triangles_keep_what_is_documented(

@@ -1,6 +1,7 @@
 //! Random holes by every method, and random triangles.
 
 use super::{METHODS, all_but_the_largest, bits, fill, mesh_of, with_method};
+use crate::boundary::classify::LoopClass;
 use crate::boundary::loops::BoundaryLoops;
 use crate::boundary::select::Selection;
 use crate::fill::method::Method;
@@ -120,7 +121,7 @@ fn check_every_method(arrays: &Arrays) {
     }
 }
 
-/// Case counts of the long run, which is made by hand: `cargo test --release -- --ignored soup`.
+/// Case counts of the long run, which is made by hand: `cargo test --lib -- --ignored many_`.
 const LONG: u32 = 20_000;
 
 proptest! {
@@ -131,9 +132,11 @@ proptest! {
         let filled = fill(&arrays, &selection, &options);
         for hole in &filled.report.holes {
             prop_assert!(hole.status != HoleStatus::Cancelled);
-            let is_filled = hole.status == HoleStatus::Filled;
-            prop_assert!(is_filled || selection.keep_largest > 0 || !options.fallback, "{:?}", hole);
-            prop_assert!(hole.status != HoleStatus::Failed || !options.fallback, "{:?}", hole);
+            // A loose triangle cannot be closed by itself without repeating it.
+            let is_loose_triangle = hole.edges == 3 && hole.class == LoopClass::Island;
+            let may_fail = is_loose_triangle || !options.fallback;
+            prop_assert!(hole.status != HoleStatus::Failed || may_fail, "{:?}", hole);
+            prop_assert!(hole.status != HoleStatus::Kept || selection.keep_largest > 0);
         }
         if filled.report.count(HoleStatus::Failed) == 0 {
             let topology = filled.topology();

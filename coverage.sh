@@ -56,6 +56,7 @@ export LLVM_PROFILE_FILE="$raw/%4m.profraw"
 
 mapfile -t programs < <(cargo test --locked --no-run --message-format=json |
     sed -n 's/.*"executable":"\([^"]*\)".*/\1/p')
+[ ${#programs[@]} -gt 0 ] || { echo "coverage: the tests do not compile" >&2 && exit 1; }
 tests=passed
 cargo test --locked --lib --bins --tests --no-fail-fast || tests=failed
 

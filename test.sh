@@ -97,7 +97,7 @@ say "the same bytes for any number of threads, and again"
 for method in flat membrane fair-c1 fair-c2; do
     for threads in 1 2 1 2; do
         holefill fill "$demo/damaged.ply" -o "$scratch/out.ply" --method "$method" --threads "$threads" --quiet
-        sha256sum <"$scratch/out.ply"
+        sha256sum <"$scratch/out.ply" | cut -d" " -f1
     done >"$scratch/sums"
     printf '%-9s %s\n' "$method" "$(sort -u "$scratch/sums" | tr '\n' ' ')"
     [ "$(sort -u "$scratch/sums" | wc -l)" = 1 ] || fail "$method gives different files"

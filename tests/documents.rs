@@ -60,6 +60,33 @@ fn every_parameter_is_documented_with_its_default() {
     }
 }
 
+#[test]
+fn documented_constants_have_their_values() {
+    let page = read("docs/methods/staircase.md");
+    let rows = page
+        .lines()
+        .skip_while(|line| *line != "## Constants")
+        .skip(1)
+        .take_while(|line| !line.starts_with("## "))
+        .filter(|line| line.starts_with("| `"));
+    let mut count = 0;
+    for row in rows {
+        let cells: Vec<&str> = row.split('|').map(|c| c.trim_matches([' ', '`'])).collect();
+        let [_, name, value, file, _] = cells[..] else {
+            panic!("{row}");
+        };
+        let source = read(&format!("src/{file}"));
+        let is_defined = source.lines().any(|line| {
+            line == format!("            {name}: {value},")
+                || (line.starts_with(&format!("const {name}: "))
+                    && line.ends_with(&format!(" = {value};")))
+        });
+        assert!(is_defined, "{file} does not say that {name} is {value}");
+        count += 1;
+    }
+    assert!(count > 10, "only {count} constants were found");
+}
+
 /// All Markdown files in `folder` and below.
 fn files(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();

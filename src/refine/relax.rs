@@ -14,9 +14,8 @@ use super::connectivity::{Connectivity, Halfedge, prev};
 use super::density::SizeField;
 use crate::math::Vec3;
 
-/// Part of the way to the centroid that one move goes. The full way settles in half the number of
-/// moves that 0.7 needs, because each move sees those before it; much more would oscillate.
-const STEP: f64 = 1.0;
+/// Part of the way to the centroid that one move goes; the full way oscillates.
+const STEP: f64 = 0.7;
 
 /// No move may shrink a triangle, seen along the vertex normal, below this part of the mean of its
 /// ring.

@@ -21,7 +21,10 @@ const RULES: &[(&str, &[&str])] = &[
     ("error", &[]),
     ("math", &["error"]),
     // Who is whose neighbour: no coordinates.
-    ("mesh::connectivity", &["error", "mesh::defects"]),
+    ("mesh::connectivity", &CONNECTIVITY),
+    ("mesh::linking", &CONNECTIVITY),
+    ("mesh::rim_table", &CONNECTIVITY),
+    ("mesh::survey", &CONNECTIVITY),
     ("mesh::defects", &["error"]),
     ("mesh", &["error", "math"]),
     ("boundary", &["error", "math", "mesh"]),
@@ -60,6 +63,16 @@ const RULES: &[(&str, &[&str])] = &[
             "error", "math", "mesh", "boundary", "quality", "patch", "fill",
         ],
     ),
+];
+
+/// What connectivity consists of.
+const CONNECTIVITY: [&str; 6] = [
+    "error",
+    "mesh::connectivity",
+    "mesh::defects",
+    "mesh::linking",
+    "mesh::rim_table",
+    "mesh::survey",
 ];
 
 const MOST_LINES: usize = 900;

@@ -24,6 +24,9 @@ mod boundary;
 mod error;
 mod fair;
 mod fill;
+#[cfg(test)]
+#[path = "../tests/common/meshes.rs"]
+mod fixtures;
 pub mod io;
 mod math;
 mod mesh;

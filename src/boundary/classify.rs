@@ -3,19 +3,20 @@
 use super::loops::BoundaryLoop;
 use crate::math::aabb::Aabb;
 use crate::math::box_tree::BoxTree;
-use crate::math::{Vec3, cross_normal};
+use crate::math::{Vec3, cross_normal, unit};
 use crate::mesh::connectivity::{BOUNDARY, DEGENERATE};
 use crate::mesh::trimesh::TriMesh;
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// A loop counts as an outer rim when the vector area along its side of the surface is at least this share
-/// of what a flat sheet has.
+/// A loop counts as an outer rim when the mean cosine between its vector area and the normals along it is
+/// above this; a flat sheet has 1.
 const OUTER_RIM_ALIGNMENT: f64 = 0.5;
 /// A sheet with more triangles than this per squared rim edge is not taken for an island.
 const ISLAND_FACES_PER_SQUARED_EDGE: usize = 8;
-/// An island's rim lies within the box of the hole, enlarged by this share of its diagonal.
-const ISLAND_BOX_MARGIN: f64 = 0.1;
+/// An island's rim lies within the box of the hole, enlarged by this share of its diagonal: that is how high
+/// half a sphere stands over its rim.
+const ISLAND_BOX_MARGIN: f64 = 0.36;
 
 /// The kind of a boundary loop.
 ///
@@ -76,7 +77,10 @@ pub(super) fn classify(mesh: &TriMesh, loops: &mut [BoundaryLoop]) {
     let mut islands = Vec::new();
     for island in loops.iter().filter(|l| is_candidate(l)) {
         // The sheet is looked at last: that costs the most.
-        let host = hosts.smallest_around(loops, island);
+        let around = hosts.around(loops, island);
+        let host = around
+            .into_iter()
+            .find(|&host| spans_over(mesh, &loops[host], island));
         if let Some(host) = host.filter(|_| bounds_small_sheet(mesh, island)) {
             islands.push((island.id, host));
         }
@@ -109,16 +113,20 @@ fn mark_touching(loops: &mut [BoundaryLoop]) {
     }
 }
 
-/// The cosine between the vector area and the mean normal along the loop: near 1 when the sheet lies
-/// inside the loop, near -1 when it lies outside, that is round a hole.
+/// The mean cosine between the vector area and the normals of the triangles along the loop, by area: near
+/// 1 when a flat sheet lies inside the loop, near -1 when it lies outside, that is round a hole, and 0 at
+/// the end of a tube.
 fn outer_rim_alignment(mesh: &TriMesh, l: &BoundaryLoop) -> f64 {
     let mut normal = Vec3::zeros();
+    let mut double_area = 0.0;
     for &h in &l.halfedges {
         let [a, b, c] = mesh.corners(h / 3);
-        normal += cross_normal(&a, &b, &c);
+        let n = cross_normal(&a, &b, &c);
+        normal += n;
+        double_area += n.norm();
     }
     let area = Vec3::from(l.vector_area);
-    let scale = normal.norm() * area.norm();
+    let scale = double_area * area.norm();
     if scale > 0.0 {
         normal.dot(&area) / scale
     } else {
@@ -148,18 +156,55 @@ impl Hosts {
         }
     }
 
-    /// The shortest host whose box holds the island and whose perimeter is longer.
-    fn smallest_around(&self, loops: &[BoundaryLoop], island: &BoundaryLoop) -> Option<usize> {
+    /// The hosts whose box holds the island and whose perimeter is longer, the shortest first.
+    fn around(&self, loops: &[BoundaryLoop], island: &BoundaryLoop) -> Vec<usize> {
         let bounds = &island.bounds;
         let mut near = Vec::new();
         self.tree.overlapping(bounds, &mut near);
-        near.iter()
+        let mut hosts: Vec<usize> = near
+            .iter()
             .filter(|&&i| self.boxes[i as usize].contains(bounds))
-            .map(|&i| &loops[self.ids[i as usize]])
-            .filter(|host| host.id != island.id && host.perimeter > island.perimeter)
-            .min_by(|a, b| a.perimeter.total_cmp(&b.perimeter))
-            .map(|host| host.id)
+            .map(|&i| self.ids[i as usize])
+            .filter(|&id| id != island.id && loops[id].perimeter > island.perimeter)
+            .collect();
+        hosts.sort_by(|&a, &b| {
+            loops[a]
+                .perimeter
+                .total_cmp(&loops[b].perimeter)
+                .then(a.cmp(&b))
+        });
+        hosts
     }
+}
+
+/// Whether a surface across the hole of `host` would pass through the sheet of `island` and face the same
+/// way: seen along the host's vector area, the island lies within the host's outline.
+fn spans_over(mesh: &TriMesh, host: &BoundaryLoop, island: &BoundaryLoop) -> bool {
+    let area = Vec3::from(host.vector_area);
+    // The triangles round a hole run round it the other way than those of a sheet inside it.
+    if area.dot(&Vec3::from(island.vector_area)) >= 0.0 {
+        return false;
+    }
+    let across = unit(area);
+    let right = unit(across.cross(&Vec3::ith(across.iamin(), 1.0)));
+    let up = across.cross(&right);
+    let project = |&v: &u32| {
+        let p = mesh.point(v);
+        [p.dot(&right), p.dot(&up)]
+    };
+    let outline: Vec<[f64; 2]> = host.vertices.iter().map(project).collect();
+    let is_within = |v: &u32| {
+        let [x, y] = project(v);
+        let mut is_inside = false;
+        for (i, &[ax, ay]) in outline.iter().enumerate() {
+            let [bx, by] = outline[(i + 1) % outline.len()];
+            if (ay > y) != (by > y) && x < ax + (y - ay) / (by - ay) * (bx - ax) {
+                is_inside = !is_inside;
+            }
+        }
+        is_inside || host.vertices.contains(v)
+    };
+    island.vertices.iter().all(is_within)
 }
 
 /// Whether the triangles that hang together with the loop are few and have no other boundary.
@@ -201,6 +246,7 @@ mod tests {
             planarity: 0.0,
             class,
             halfedges: Vec::new(),
+            reversed: Vec::new(),
             host: None,
             bounds: Aabb {
                 lo: low,
@@ -244,11 +290,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_host_is_the_shortest_loop_whose_box_holds_the_island(loops in any_loops()) {
+        fn the_first_host_is_the_shortest_loop_whose_box_holds_the_island(loops in any_loops()) {
             let hosts = Hosts::among(&loops);
             for island in &loops {
                 prop_assert_eq!(
-                    hosts.smallest_around(&loops, island),
+                    hosts.around(&loops, island).first().copied(),
                     host_by_rule(&loops, island)
                 );
             }

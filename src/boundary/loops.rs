@@ -4,7 +4,7 @@ use super::classify::{LoopClass, classify};
 use crate::math::Vec3;
 use crate::math::aabb::Aabb;
 use crate::math::plane::fit_plane;
-use crate::mesh::connectivity::{BOUNDARY, origin, target};
+use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD, origin, previous, target};
 use crate::mesh::rings::{FanEnd, walk_fan};
 use crate::mesh::trimesh::TriMesh;
 use std::collections::BTreeMap;
@@ -16,6 +16,9 @@ pub struct BoundaryLoop {
     pub id: usize,
     /// Vertices in the direction in which the triangles along the loop run; edge `i` runs from vertex
     /// `i` to vertex `i + 1`, the last one back to vertex 0.
+    ///
+    /// An open chain ([`LoopClass::OpenChain`]) has one vertex more than edges. Where the triangles are
+    /// not oriented alike, the direction is that of the lowest triangle along the loop.
     pub vertices: Vec<u32>,
     /// Length of the loop, in units of the positions.
     pub perimeter: f64,
@@ -32,6 +35,8 @@ pub struct BoundaryLoop {
     pub class: LoopClass,
     /// Boundary halfedges, edge by edge.
     pub(crate) halfedges: Vec<u32>,
+    /// The edges, ascending, whose halfedge runs against the loop.
+    pub(crate) reversed: Vec<usize>,
     /// For an island the loop whose hole it lies in.
     pub(crate) host: Option<usize>,
     /// The bounding box.
@@ -42,13 +47,26 @@ impl BoundaryLoop {
     /// One directed edge of the loop, as in its triangle: it names the loop in selections.
     #[must_use]
     pub fn edge(&self) -> [u32; 2] {
-        [self.vertices[0], self.vertices[1 % self.vertices.len()]]
+        self.directed_edge(0)
     }
 
-    /// Number of edges, which is also the number of vertices.
+    /// Number of edges, which is also the number of vertices unless the loop is an open chain.
     #[must_use]
     pub fn edge_count(&self) -> usize {
-        self.vertices.len()
+        self.halfedges.len()
+    }
+
+    /// Edge `i` as it runs in its triangle.
+    pub(crate) fn directed_edge(&self, i: usize) -> [u32; 2] {
+        let (from, to) = (
+            self.vertices[i],
+            self.vertices[(i + 1) % self.vertices.len()],
+        );
+        if self.reversed.binary_search(&i).is_ok() {
+            [to, from]
+        } else {
+            [from, to]
+        }
     }
 }
 
@@ -63,9 +81,10 @@ pub struct BoundaryLoops {
 impl BoundaryLoops {
     /// Finds all boundary loops of `mesh`.
     ///
-    /// The boundary is followed through the triangles round each vertex. Where it visits a vertex
-    /// twice it is cut there, so that every loop is simple: two holes that touch in a vertex are two
-    /// loops. Where it runs into an edge with three or more triangles it cannot be followed; such a
+    /// The boundary is followed through the triangles round each vertex; where two fans of triangles meet
+    /// in a vertex, it goes on with the other fan, so that a hole is followed and not a sheet. Where it
+    /// visits a vertex twice it is cut there, so that every loop is simple: two holes that touch in a
+    /// vertex are two loops. Where it runs into an edge with three or more triangles it cannot be followed; such a
     /// piece is listed with [`LoopClass::OpenChain`].
     ///
     /// # Complexity
@@ -98,6 +117,10 @@ impl BoundaryLoops {
                 .min_by_key(|&i| chain.edges[i].halfedge)
                 .unwrap_or(0);
             chain.edges.rotate_left(lowest);
+            let first = chain.edges[0];
+            if origin(mesh.triangles(), first.halfedge) != first.from {
+                reverse(mesh, chain);
+            }
         }
         chains.sort_by_key(|c| c.edges.iter().map(|e| e.halfedge).min());
         let mut loops: Vec<BoundaryLoop> = chains
@@ -112,10 +135,9 @@ impl BoundaryLoops {
     /// The loop that contains the directed boundary edge `edge`, as in its triangle.
     #[must_use]
     pub fn with_edge(&self, edge: [u32; 2]) -> Option<&BoundaryLoop> {
-        self.loops.iter().find(|l| {
-            let n = l.vertices.len();
-            (0..n).any(|i| l.vertices[i] == edge[0] && l.vertices[(i + 1) % n] == edge[1])
-        })
+        self.loops
+            .iter()
+            .find(|l| (0..l.edge_count()).any(|i| l.directed_edge(i) == edge))
     }
 }
 
@@ -143,6 +165,35 @@ fn other_end(mesh: &TriMesh, halfedge: u32, vertex: u32) -> u32 {
     }
 }
 
+/// The boundary edge with which the boundary goes on at `vertex` after the edge of `halfedge`; `None` when
+/// it runs into an edge with more than two triangles.
+///
+/// That is the other end of the triangles round the vertex. But where exactly two fans of triangles meet
+/// in the vertex, it is the end of the other fan, so that the hole between them is followed.
+fn next_boundary_edge(mesh: &TriMesh, vertex: u32, halfedge: u32) -> Option<u32> {
+    let connectivity = mesh.connectivity();
+    let end = match walk_fan(mesh, vertex, halfedge, |_| {}) {
+        FanEnd::At(end) if connectivity.twin(end) == BOUNDARY => end,
+        _ => return None,
+    };
+    let mut ends = [Vec::new(), Vec::new()];
+    for o in connectivity.outgoing(vertex) {
+        for (side, h) in [(0, o.halfedge), (1, previous(o.halfedge))] {
+            match connectivity.twin(h) {
+                BOUNDARY => ends[side].push(h),
+                NON_MANIFOLD => return Some(end),
+                _ => {}
+            }
+        }
+    }
+    let side = usize::from(!ends[0].contains(&end));
+    let is_oriented = ends[side].contains(&end) && ends[1 - side].contains(&halfedge);
+    match ends[side][..] {
+        [a, b] if is_oriented && ends[1 - side].len() == 2 => Some(if a == end { b } else { a }),
+        _ => Some(end),
+    }
+}
+
 /// Follows the boundary from the halfedge `start` forwards, and backwards too if it is not closed.
 fn follow(mesh: &TriMesh, start: u32) -> Chain {
     let from = origin(mesh.triangles(), start);
@@ -153,33 +204,42 @@ fn follow(mesh: &TriMesh, start: u32) -> Chain {
     let leave = |halfedge: u32, vertex: u32, edges: &mut Vec<ChainEdge>| {
         let (mut halfedge, mut vertex) = (halfedge, vertex);
         loop {
-            match walk_fan(mesh, vertex, halfedge, |_| {}) {
-                FanEnd::At(h) if mesh.connectivity().twin(h) == BOUNDARY => {
-                    if h == start {
-                        return true;
-                    }
-                    edges.push(ChainEdge {
-                        halfedge: h,
-                        from: vertex,
-                    });
-                    (halfedge, vertex) = (h, other_end(mesh, h, vertex));
-                }
-                _ => return false,
+            let Some(h) = next_boundary_edge(mesh, vertex, halfedge) else {
+                return false;
+            };
+            if h == start {
+                return true;
             }
+            edges.push(ChainEdge {
+                halfedge: h,
+                from: vertex,
+            });
+            (halfedge, vertex) = (h, other_end(mesh, h, vertex));
         }
     };
     let is_closed = leave(start, other_end(mesh, start, from), &mut edges);
     if !is_closed {
         let mut before = Vec::new();
         leave(start, from, &mut before);
-        for e in &mut before {
-            e.from = other_end(mesh, e.halfedge, e.from);
-        }
         before.reverse();
+        turn(mesh, &mut before);
         before.append(&mut edges);
         edges = before;
     }
     Chain { edges, is_closed }
+}
+
+/// Passes each of the edges the other way.
+fn turn(mesh: &TriMesh, edges: &mut [ChainEdge]) {
+    for e in edges {
+        e.from = other_end(mesh, e.halfedge, e.from);
+    }
+}
+
+/// Runs a closed chain the other way round, from the same first edge.
+fn reverse(mesh: &TriMesh, chain: &mut Chain) {
+    chain.edges[1..].reverse();
+    turn(mesh, &mut chain.edges);
 }
 
 /// Cuts a closed chain at the vertices that it visits more than once.
@@ -214,35 +274,38 @@ fn split_at_repeated_vertices(chain: Chain, simple: &mut Vec<Chain>) {
 
 fn measure(mesh: &TriMesh, id: usize, chain: &Chain) -> BoundaryLoop {
     let halfedges: Vec<u32> = chain.edges.iter().map(|e| e.halfedge).collect();
-    let vertices: Vec<u32> = chain.edges.iter().map(|e| e.from).collect();
+    let reversed: Vec<usize> = (0..chain.edges.len())
+        .filter(|&i| origin(mesh.triangles(), chain.edges[i].halfedge) != chain.edges[i].from)
+        .collect();
+    let mut vertices: Vec<u32> = chain.edges.iter().map(|e| e.from).collect();
+    if let Some(last) = chain.edges.last().filter(|_| !chain.is_closed) {
+        vertices.push(other_end(mesh, last.halfedge, last.from));
+    }
     let points: Vec<Vec3> = vertices.iter().map(|&v| mesh.point(v)).collect();
-    let mut perimeter = 0.0;
     let mut area = Vec3::zeros();
     let bounds = Aabb::around(&points);
     for (i, p) in points.iter().enumerate() {
         let q = points[(i + 1) % points.len()];
-        perimeter += (q - p).norm();
         area += (p - points[0]).cross(&(q - points[0])) / 2.0;
     }
+    let length = |i: usize| (points[(i + 1) % points.len()] - points[i]).norm();
+    let perimeter = (0..halfedges.len()).map(length).sum();
     let spread = fit_plane(&points).map_or([0.0; 3], |plane| plane.spread);
     let total = spread.iter().map(|s| s * s).sum::<f64>().sqrt();
-    let is_oriented = chain
-        .edges
-        .iter()
-        .all(|e| origin(mesh.triangles(), e.halfedge) == e.from);
     BoundaryLoop {
         id,
         perimeter,
         vector_area: area.into(),
         diameter: (bounds.hi - bounds.lo).norm(),
         planarity: if total > 0.0 { spread[2] / total } else { 0.0 },
-        class: match (chain.is_closed, is_oriented) {
+        class: match (chain.is_closed, reversed.is_empty()) {
             (false, _) => LoopClass::OpenChain,
             (true, false) => LoopClass::NotOriented,
             (true, true) => LoopClass::Simple,
         },
         vertices,
         halfedges,
+        reversed,
         host: None,
         bounds,
     }

@@ -3,3 +3,8 @@
 pub(crate) mod classify;
 pub(crate) mod loops;
 pub(crate) mod select;
+
+#[cfg(test)]
+mod loops_tests;
+#[cfg(test)]
+mod select_tests;

@@ -2,3 +2,6 @@
 
 pub(crate) mod kharmonic;
 pub(crate) mod laplacian;
+
+#[cfg(test)]
+mod tests;

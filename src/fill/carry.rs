@@ -57,14 +57,7 @@ impl CarriedAttributes {
 }
 
 /// Computes the attribute values of a patch. Does nothing for a mesh without attributes.
-///
-/// # Errors
-/// [`crate::ErrorKind::Solver`] when the harmonic system cannot be solved.
-pub(crate) fn carry(
-    mesh: &TriMesh,
-    hole: &Hole,
-    surface: &PatchSurface,
-) -> Result<CarriedAttributes> {
+pub(crate) fn carry(mesh: &TriMesh, hole: &Hole, surface: &PatchSurface) -> CarriedAttributes {
     let mut carried = CarriedAttributes::default();
     let vertex_columns = mesh.vertex_attributes().columns();
     carried.vertex_sources = if vertex_columns.is_empty() {
@@ -78,7 +71,7 @@ pub(crate) fn carry(
         nearest_rim_faces(hole, surface)
     };
     if vertex_columns.is_empty() || surface.points.len() == surface.rim_count {
-        return Ok(carried);
+        return carried;
     }
     let normals: Vec<Option<usize>> = NORMALS
         .iter()
@@ -101,27 +94,40 @@ pub(crate) fn carry(
         .filter(|&c| !carried.vertex_values.iter().any(|&(known, _)| known == c))
         .collect();
     let mut solver = SpdSolver::default();
-    for columns in smooth.chunks(3) {
-        let at_rim = |&v: &u32| {
-            let mut values = Vec3::zeros();
-            for (k, &c) in columns.iter().enumerate() {
-                values[k] = vertex_columns[c].values.number(v as usize).unwrap_or(0.0);
+    let at_rim = |c: usize| -> Vec<f64> {
+        let value = |&v: &u32| vertex_columns[c].values.number(v as usize);
+        hole.rim.iter().map(|v| value(v).unwrap_or(0.0)).collect()
+    };
+    // A value that is not a number would spread over the whole patch: such a column is copied.
+    let known: Vec<(usize, Vec<f64>)> = smooth
+        .into_iter()
+        .map(|c| (c, at_rim(c)))
+        .filter(|(_, values)| values.iter().all(|v| v.is_finite()))
+        .collect();
+    let largest = |values: &[f64]| values.iter().fold(f64::MIN_POSITIVE, |a, v| a.max(v.abs()));
+    for columns in known.chunks(3) {
+        // In units of the largest value, so that no sum overflows.
+        let mut rim_values = vec![Vec3::zeros(); hole.rim.len()];
+        for (k, (_, values)) in columns.iter().enumerate() {
+            for (row, &value) in rim_values.iter_mut().zip(values) {
+                row[k] = value / largest(values);
             }
-            values
-        };
-        let rim_values: Vec<Vec3> = hole.rim.iter().map(at_rim).collect();
-        if !rim_values.iter().all(|v| v.iter().all(|c| c.is_finite())) {
-            // A value that is not a number would spread over the whole patch: copy the nearest instead.
-            continue;
         }
-        let values = extend_from_rim(surface, &rim_values, &mut solver)?;
-        for (k, &c) in columns.iter().enumerate() {
-            carried
-                .vertex_values
-                .push((c, values.iter().map(|v| v[k]).collect()));
+        let Ok(inside) = extend_from_rim(surface, &rim_values, &mut solver) else {
+            continue;
+        };
+        for (k, (c, values)) in columns.iter().enumerate() {
+            // Rounding may leave the rim's range, which the harmonic function itself does not.
+            let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let inside = inside
+                .iter()
+                .map(|v| (v[k] * largest(values)).clamp(low, high))
+                .collect();
+            carried.vertex_values.push((*c, inside));
         }
     }
-    Ok(carried)
+    carried
 }
 
 fn is_float(column: &Attribute) -> bool {

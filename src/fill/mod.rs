@@ -11,3 +11,6 @@ pub(crate) mod report;
 mod staircase;
 mod stitch;
 mod verify;
+
+#[cfg(test)]
+mod tests;

@@ -69,6 +69,16 @@ impl Parameter {
     pub fn value(&self, options: &FillOptions) -> String {
         (self.get)(options)
     }
+
+    fn refusal(&self, value: &str) -> Error {
+        Error::new(
+            ErrorKind::InvalidInput,
+            format!(
+                "{} cannot be '{value}': it takes {}",
+                self.name, self.allowed
+            ),
+        )
+    }
 }
 
 fn number<T: std::str::FromStr + PartialOrd>(value: &str, low: T, high: T) -> Option<T> {
@@ -160,12 +170,21 @@ impl FillOptions {
                 ),
             ));
         };
-        (parameter.set)(self, value).ok_or_else(|| {
-            Error::new(
-                ErrorKind::InvalidInput,
-                format!("{name} cannot be '{value}': it takes {}", parameter.allowed),
-            )
-        })
+        (parameter.set)(self, value).ok_or_else(|| parameter.refusal(value))
+    }
+
+    /// Checks that every parameter is in its range, however it was set.
+    ///
+    /// # Errors
+    /// [`ErrorKind::InvalidInput`] for the first one that is not, as [`FillOptions::set`] would say it.
+    pub(crate) fn check(&self) -> Result<()> {
+        for parameter in Self::PARAMETERS {
+            let value = parameter.value(self);
+            if (parameter.set)(&mut self.clone(), &value).is_none() {
+                return Err(parameter.refusal(&value));
+            }
+        }
+        Ok(())
     }
 }
 

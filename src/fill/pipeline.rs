@@ -9,7 +9,7 @@ use crate::boundary::classify::LoopClass;
 use crate::boundary::loops::{BoundaryLoop, BoundaryLoops};
 use crate::boundary::select::Selection;
 use crate::error::{Error, ErrorKind, Result};
-use crate::mesh::connectivity::BOUNDARY;
+use crate::mesh::connectivity::{BOUNDARY, origin, target};
 use crate::mesh::trimesh::TriMesh;
 use crate::quality::Surface;
 use crate::quality::spatial::FaceIndex;
@@ -36,8 +36,8 @@ use std::time::Instant;
 ///
 /// # Errors
 /// [`ErrorKind::InvalidInput`] when the selection names an edge that is on no loop, when `boundary` is not that
-/// of `mesh`, or when the thread pool cannot be made. The mesh is then unchanged. What goes wrong with a
-/// single hole is not an error of the call.
+/// of `mesh`, when an option is out of its range, or when the thread pool cannot be made. The mesh is then
+/// unchanged. What goes wrong with a single hole is not an error of the call.
 ///
 /// # Complexity
 /// One pass over the mesh for the index of the intersection tests, then each hole by itself: about
@@ -49,6 +49,7 @@ pub fn fill_holes(
     options: &FillOptions,
     progress: Option<ProgressCallback<'_>>,
 ) -> Result<FillReport> {
+    options.check()?;
     check_boundary(mesh, boundary)?;
     let kept = selection.reasons_to_keep(boundary)?;
     let holes = group_holes(boundary, &kept, options);
@@ -192,17 +193,24 @@ fn blank_report(l: &BoundaryLoop, kept: &Option<String>) -> HoleReport {
 }
 
 fn check_boundary(mesh: &TriMesh, boundary: &BoundaryLoops) -> Result<()> {
-    let connectivity = mesh.connectivity();
-    let is_open =
-        |&h: &u32| (h as usize) < connectivity.halfedge_count() && connectivity.twin(h) == BOUNDARY;
-    match boundary
-        .loops
-        .iter()
-        .find(|l| !l.halfedges.iter().all(is_open))
-    {
-        Some(l) => Err(invalid(format!(
-            "loop {} is not on the boundary of this mesh",
-            l.id
+    let (triangles, connectivity) = (mesh.triangles(), mesh.connectivity());
+    let is_edge = |l: &BoundaryLoop, i: usize| {
+        let h = l.halfedges[i];
+        (h as usize) < connectivity.halfedge_count()
+            && connectivity.twin(h) == BOUNDARY
+            && l.directed_edge(i) == [origin(triangles, h), target(triangles, h)]
+    };
+    let is_sound = |id: usize, l: &BoundaryLoop| {
+        let open_end = usize::from(l.class == LoopClass::OpenChain);
+        l.id == id
+            && l.vertices.len() == l.edge_count() + open_end
+            && (0..l.edge_count()).all(|i| is_edge(l, i))
+            && (l.reversed.is_empty() || unfillable_reason(l.class).is_some())
+            && l.host.is_none_or(|host| host < boundary.loops.len())
+    };
+    match (0..boundary.loops.len()).find(|&id| !is_sound(id, &boundary.loops[id])) {
+        Some(id) => Err(invalid(format!(
+            "loop {id} is not on the boundary of this mesh"
         ))),
         None => Ok(()),
     }

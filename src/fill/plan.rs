@@ -130,7 +130,7 @@ impl Planner<'_> {
         if candidate.intersections.total() > 0 {
             tried.remove(position);
         }
-        self.finish(hole, candidate, tried)
+        Ok(self.finish(hole, candidate, tried))
     }
 
     fn candidate(
@@ -163,29 +163,21 @@ impl Planner<'_> {
         })
     }
 
-    fn finish(
-        &self,
-        hole: Hole,
-        candidate: Candidate,
-        tried: Vec<Attempt>,
-    ) -> std::result::Result<Plan, Failure> {
+    fn finish(&self, hole: Hole, candidate: Candidate, tried: Vec<Attempt>) -> Plan {
         let Candidate {
             method,
             surface,
             points,
             intersections,
         } = candidate;
-        let attributes = match carry(self.mesh, &hole, &surface) {
-            Ok(attributes) => attributes,
-            Err(error) => return Err(Failure { error, tried }),
-        };
+        let attributes = carry(self.mesh, &hole, &surface);
         let corners = |t: &[u32; 3]| t.map(|v| surface.points[v as usize]);
         let min_angle = surface
             .triangles
             .iter()
             .map(|t| smallest_angle(&corners(t)))
             .fold(std::f64::consts::PI, f64::min);
-        Ok(Plan {
+        Plan {
             hole,
             method,
             tried,
@@ -194,7 +186,7 @@ impl Planner<'_> {
             self_intersections: intersections.total(),
             min_angle,
             attributes,
-        })
+        }
     }
 }
 

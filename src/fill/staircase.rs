@@ -22,8 +22,8 @@ const COARSENING: f64 = 2.0;
 const EAR_REMAINDER: usize = 64;
 /// The same, and the largest rim searched whole, where the triangulation is only the start of a patch that
 /// will be refined: flips and fairing make up for what the search would find.
-const START_EAR_REMAINDER: usize = 32;
-const START_EXACT_LIMIT: usize = 48;
+const START_EAR_REMAINDER: usize = 16;
+const START_EXACT_LIMIT: usize = 24;
 
 /// Relaxations of the coarse and of the final patch.
 const COARSE_RELAXATIONS: usize = 0;

@@ -24,6 +24,8 @@ pub(super) struct Stitcher<'a> {
     interrupted: &'a (dyn Fn() -> bool + Sync),
     /// Boxes of all planned patches.
     boxes: BoxTree,
+    /// Holes whose patch is not the planned one, with its box.
+    replanned: Vec<(usize, Aabb)>,
     /// Triangles of the patch of each hole, once it is stitched.
     stitched: Vec<Range<usize>>,
 }
@@ -62,6 +64,7 @@ impl<'a> Stitcher<'a> {
             options,
             interrupted,
             boxes,
+            replanned: Vec::new(),
             stitched,
         }
     }
@@ -95,6 +98,7 @@ impl<'a> Stitcher<'a> {
                             < with_patches + plan.self_intersections =>
                 {
                     with_patches = count;
+                    self.replanned.push((index, plan_box(self.mesh, &other)));
                     plan = other;
                 }
                 Err(failure) if !is_usable => {
@@ -163,9 +167,17 @@ impl<'a> Stitcher<'a> {
 
     /// Pairs of triangles of the patch and of the patches stitched so far that intersect.
     fn intersections_with_patches(&self, plan: &Plan) -> usize {
+        let own_box = plan_box(self.mesh, plan);
         let mut near = Vec::new();
-        self.boxes
-            .overlapping(&plan_box(self.mesh, plan), &mut near);
+        self.boxes.overlapping(&own_box, &mut near);
+        let other = |i: &u32| !self.replanned.iter().any(|&(hole, _)| hole == *i as usize);
+        near.retain(other);
+        let replanned = self.replanned.iter();
+        near.extend(
+            replanned
+                .filter(|(_, reach)| reach.overlaps(&own_box))
+                .map(|&(hole, _)| hole as u32),
+        );
         let triangles = plan.triangles(self.mesh.positions().len());
         let patch = AppendedPatch {
             points: &plan.points,

@@ -138,7 +138,7 @@ impl Format {
     }
 }
 
-/// Whether the extension of `path` is that of a format which [`read`] and [`write`] know.
+/// Whether the extension of `path` is that of a format which [`read`] and [`write()`] know.
 #[must_use]
 pub fn is_known_extension(path: impl AsRef<Path>) -> bool {
     Format::of(path.as_ref()).is_ok()

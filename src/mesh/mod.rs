@@ -10,3 +10,8 @@ mod rim_table;
 pub(crate) mod rings;
 mod survey;
 pub(crate) mod trimesh;
+
+#[cfg(test)]
+mod connectivity_tests;
+#[cfg(test)]
+mod rings_tests;

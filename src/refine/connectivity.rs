@@ -6,8 +6,8 @@
 //! every open fan of triangles round a vertex starts at one of them, so a vertex that the rim
 //! passes several times (a pinch) needs no special case.
 //!
-//! Building sorts the edges, `O(n log n)`; splits and flips are `O(1)`; the edge test walks the two
-//! one-rings in step, `O(smaller valence)`.
+//! Building sorts the edges, `O(n log n)`; splits and flips are `O(1)`; the edge test walks
+//! round an interior end, `O(valence)`, or else round both ends in step, `O(smaller valence)`.
 
 use crate::error::{Error, ErrorKind, Result};
 
@@ -165,12 +165,12 @@ impl Connectivity {
 
     fn find_starts(&mut self) -> Result<()> {
         let mut corners = vec![0u32; self.start.len()];
-        for h in 0..self.opposite.len() as u32 {
-            let v = self.origin(h) as usize;
-            corners[v] += 1;
-            if self.rim_edges_of(v as u32).is_empty() {
-                self.start[v] = h;
-            }
+        for (h, &v) in self.origins.iter().enumerate() {
+            corners[v as usize] += 1;
+            self.start[v as usize] = h as u32;
+        }
+        for &h in &self.rim_edges {
+            self.start[self.origins[h as usize] as usize] = NONE;
         }
         match (0..corners.len()).find(|&v| self.corners(v as u32).count() != corners[v] as usize) {
             Some(v) => Err(topology(format!(
@@ -191,6 +191,17 @@ impl Connectivity {
 
     pub(super) fn triangles(&self) -> &[[u32; 3]] {
         self.origins.as_chunks().0
+    }
+
+    /// The triangles with the half-edges on the other sides of their edges.
+    pub(super) fn triangles_and_opposites(
+        &self,
+    ) -> impl Iterator<Item = (&[u32; 3], [Option<Halfedge>; 3])> {
+        let opposites = self.opposite.as_chunks().0.iter();
+        let inside = |o: u32| (o & RIM == 0).then_some(o);
+        self.triangles()
+            .iter()
+            .zip(opposites.map(move |o: &[u32; 3]| o.map(inside)))
     }
 
     pub(super) fn vertex_count(&self) -> usize {
@@ -252,6 +263,22 @@ impl Connectivity {
 
     /// Whether the patch has an edge between `a` and `b`.
     pub(super) fn has_edge(&self, a: u32, b: u32) -> bool {
+        // One turn round an interior vertex passes all its neighbours.
+        for (v, other) in [(a, b), (b, a)] {
+            if let Some(start) = self.closed_start(v) {
+                let mut h = start;
+                loop {
+                    let back = prev(h);
+                    if self.origin(back) == other {
+                        return true;
+                    }
+                    match self.opposite(back) {
+                        Some(turned) if turned != start => h = turned,
+                        _ => return false,
+                    }
+                }
+            }
+        }
         // Both one-rings in step: whichever ends first has seen every edge of its vertex.
         let (mut round_a, mut round_b) = (self.corners(a), self.corners(b));
         let touches = |h, v| self.target(h) == v || self.apex(h) == v;

@@ -22,9 +22,9 @@ const UNIFORM_RIM: f64 = 250.0;
 /// hole then takes about `11 m` triangles.
 const LIMIT_GRADING: f64 = 0.2;
 
-/// Smallest target length over the mean of the rim: coincident rim vertices must not ask for
-/// unlimited subdivision.
-const MIN_RELATIVE_SIZE: f64 = 1e-3;
+/// Smallest target length over the mean of the rim: each halving of the length at a few degenerate edges
+/// would add as many vertices as the one before, and none of them shape.
+const MIN_RELATIVE_SIZE: f64 = 0.05;
 
 /// The growth of the target edge length with distance for a hole with `rim_count` edges.
 ///
@@ -40,10 +40,34 @@ pub(crate) fn grading(rim_count: usize) -> f64 {
 /// at `v`, or the mean of its rim edges where that slice is too short or not positive.
 ///
 /// # Errors
-/// `Topology` or `InvalidInput` when the patch is not manifold; `Geometry` when all rim vertices
-/// coincide.
+/// `Topology` or `InvalidInput` when rim edges are needed and the patch is not manifold; `Geometry` when
+/// all rim vertices coincide.
 pub(crate) fn rim_sizes(surface: &PatchSurface, mesh_edge_lengths: &[f64]) -> Result<Vec<f64>> {
     let usable = |length: f64| length.is_finite() && length > 0.0;
+    let given = |v: usize| mesh_edge_lengths.get(v).copied().filter(|&l| usable(l));
+    let rim = 0..surface.rim_count;
+    let mut sizes: Vec<f64> = match rim.clone().map(given).collect() {
+        Some(all) => all,
+        None => {
+            let means = mean_rim_edges(surface)?;
+            rim.map(|v| given(v).unwrap_or(means[v])).collect()
+        }
+    };
+    let mean = sizes.iter().sum::<f64>() / sizes.len().max(1) as f64;
+    if !usable(mean) {
+        return Err(Error::new(
+            ErrorKind::Geometry,
+            "the rim of the hole has no extent",
+        ));
+    }
+    for size in &mut sizes {
+        *size = size.max(MIN_RELATIVE_SIZE * mean);
+    }
+    Ok(sizes)
+}
+
+/// Mean length of the rim edges at each rim vertex.
+fn mean_rim_edges(surface: &PatchSurface) -> Result<Vec<f64>> {
     let mesh = Connectivity::build(
         surface.triangles.clone(),
         surface.points.len(),
@@ -58,25 +82,10 @@ pub(crate) fn rim_sizes(surface: &PatchSurface, mesh_edge_lengths: &[f64]) -> Re
             sums[v].1 += 1;
         }
     }
-    let mut sizes: Vec<f64> = sums
+    Ok(sums
         .iter()
-        .enumerate()
-        .map(|(v, &(sum, count))| match mesh_edge_lengths.get(v) {
-            Some(&length) if usable(length) => length,
-            _ => sum / f64::from(count.max(1)),
-        })
-        .collect();
-    let mean = sizes.iter().sum::<f64>() / sizes.len().max(1) as f64;
-    if !usable(mean) {
-        return Err(Error::new(
-            ErrorKind::Geometry,
-            "the rim of the hole has no extent",
-        ));
-    }
-    for size in &mut sizes {
-        *size = size.max(MIN_RELATIVE_SIZE * mean);
-    }
-    Ok(sizes)
+        .map(|&(sum, count)| sum / f64::from(count.max(1)))
+        .collect())
 }
 
 /// The target edge length at every vertex of a patch that is being refined.
@@ -153,6 +162,11 @@ impl SizeField {
         self.sizes[v as usize]
     }
 
+    /// Whether sizes depend on the distance from the rim.
+    pub(super) fn is_graded(&self) -> bool {
+        self.grading != 0.0
+    }
+
     pub(super) fn into_sizes(self) -> Vec<f64> {
         self.sizes
     }
@@ -188,9 +202,6 @@ impl SizeField {
 
     /// Measures the depth of an interior vertex anew, given the distances to its neighbours.
     pub(super) fn measure_depth(&mut self, v: u32, ring: impl Iterator<Item = (u32, f64)>) {
-        if self.grading == 0.0 {
-            return;
-        }
         let base = self.base(v);
         let depth = ring
             .map(|(u, distance)| self.depths[u as usize] + distance)
@@ -271,7 +282,8 @@ mod tests {
         surface.points[3] = surface.points[2];
         surface.points[4] = surface.points[2];
         let sizes = rim_sizes(&surface, &[]).unwrap();
-        assert!(sizes[3] > 0.0 && sizes[3] < 0.01);
+        let mean_edge = (disc_rim(8)[1] - disc_rim(8)[0]).norm();
+        assert!(sizes[3] > 0.0 && sizes[3] < 0.06 * mean_edge);
         surface.points.fill(Vec3::new(1.0, 1.0, 1.0));
         assert_eq!(
             rim_sizes(&surface, &[]).unwrap_err().kind(),

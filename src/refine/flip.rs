@@ -10,7 +10,7 @@
 //! Delaunay wherever no veto holds; on a curved patch a flip changes the surface, so nothing
 //! guarantees that the flips end by themselves. Each call therefore has a flip budget.
 
-use super::connectivity::{Connectivity, Halfedge, next, prev};
+use super::connectivity::{Connectivity, Halfedge, prev};
 use crate::math::{Vec3, cross_normal, unit};
 
 /// Opposite angles count as more than π when the sine of their sum is below minus this. Cocircular
@@ -62,9 +62,10 @@ impl<'a> Flipper<'a> {
     pub(super) fn restore_all(&mut self, mesh: &mut Connectivity, points: &[Vec3]) -> usize {
         let mut budget = FLIPS_PER_EDGE * mesh.halfedge_count() as usize;
         let granted = budget;
-        for h in 0..mesh.halfedge_count() {
-            // Once per edge is enough: a flip that renumbers an edge also stacks it.
-            if mesh.opposite(h).is_some_and(|g| h < g) {
+        for t in 0..mesh.triangles().len() {
+            // An edge that is due has an obtuse angle opposite to it on one side at least, and what a
+            // flip changes behind this triangle is on the stack.
+            if let Some(h) = opposite_obtuse(points, mesh.triangles()[t], t as u32) {
                 self.restore_from(mesh, points, h, &mut budget);
             }
         }
@@ -78,13 +79,17 @@ impl<'a> Flipper<'a> {
         first: Halfedge,
         budget: &mut usize,
     ) {
-        self.stack.push(first);
-        while let Some(h) = self.stack.pop() {
-            let Some(g) = mesh.opposite(h) else { continue };
-            if *budget > 0 && wants_flip(mesh, points, h, g) && self.may_flip(mesh, h, g) {
+        let mut edge = Some(first);
+        while let Some(h) = edge {
+            if let Some(g) = mesh.opposite(h)
+                && *budget > 0
+                && wants_flip(mesh, points, h, g)
+                && self.may_flip(mesh, h, g)
+            {
                 self.stack.extend(mesh.flip(h, g));
                 *budget -= 1;
             }
+            edge = self.stack.pop();
         }
     }
 
@@ -96,22 +101,44 @@ impl<'a> Flipper<'a> {
     }
 }
 
+/// The half-edge of triangle `t` opposite to its obtuse angle, if it has one.
+#[inline]
+fn opposite_obtuse(points: &[Vec3], corners: [u32; 3], t: u32) -> Option<Halfedge> {
+    let [a, b, c] = corners.map(|v| &points[v as usize]);
+    let (ab, bc, ca) = (b - a, c - b, a - c);
+    if ca.dot(&bc) > 0.0 {
+        Some(3 * t)
+    } else if ab.dot(&ca) > 0.0 {
+        Some(3 * t + 1)
+    } else if bc.dot(&ab) > 0.0 {
+        Some(3 * t + 2)
+    } else {
+        None
+    }
+}
+
 /// Whether the edge violates the Delaunay condition and its flip would not fold the surface.
+#[inline]
 fn wants_flip(mesh: &Connectivity, points: &[Vec3], h: Halfedge, g: Halfedge) -> bool {
     let corner = |h| &points[mesh.origin(h) as usize];
-    let (a, b, c, d) = (corner(h), corner(next(h)), corner(prev(h)), corner(prev(g)));
+    let (a, b, c, d) = (corner(h), corner(g), corner(prev(h)), corner(prev(g)));
     let (ca, cb, da, db) = (a - c, b - c, a - d, b - d);
     let (cos_c, cos_d) = (ca.dot(&cb), da.dot(&db));
-    if cos_c >= 0.0 && cos_d >= 0.0 {
-        return false; // neither angle is obtuse
+    // Only if an angle is obtuse is there more to see.
+    (cos_c < 0.0 || cos_d < 0.0) && {
+        let (normal_c, normal_d) = (ca.cross(&cb), db.cross(&da));
+        // The sine of the two angles' sum, times the lengths of their sides.
+        let sine = normal_c.norm() * cos_d + cos_c * normal_d.norm();
+        sine < 0.0 && {
+            let sides = ca.norm_squared() * cb.norm_squared() * da.norm_squared();
+            sine < -ANGLE_TOLERANCE * (sides * db.norm_squared()).sqrt()
+                && keeps_sides([a, b, c, d], normal_c, normal_d)
+        }
     }
-    let (normal_c, normal_d) = (ca.cross(&cb), db.cross(&da));
-    let (sin_c, sin_d) = (normal_c.norm(), normal_d.norm());
-    let scale =
-        (ca.norm_squared() * cb.norm_squared() * da.norm_squared() * db.norm_squared()).sqrt();
-    if sin_c * cos_d + cos_c * sin_d >= -ANGLE_TOLERANCE * scale {
-        return false;
-    }
+}
+
+/// Whether the triangles `c a d` and `d b c` lie on the side of those that they replace.
+fn keeps_sides([a, b, c, d]: [&Vec3; 4], normal_c: Vec3, normal_d: Vec3) -> bool {
     let mean = unit(unit(normal_c) + unit(normal_d));
     let keeps_side = |n: Vec3| {
         let length = n.norm();

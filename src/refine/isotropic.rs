@@ -7,18 +7,19 @@
 //! vertex, so there is nothing to remove.
 //!
 //! Each pass splits an independent set of too long edges, longest first, restores the Delaunay
-//! property and relaxes; passes that split little work only near their new vertices. `O(n log n)` for
-//! `n` triangles in the result, on every input met so far.
+//! property and relaxes. When a pass splits little, the patch gets its final relaxations; what they make
+//! too long is split in passes that work only near their new vertices. `O(n log n)` for `n` triangles in
+//! the result, on every input met so far.
 //!
 //! Rim vertices keep their bits, rim edges are neither split nor flipped. Not guaranteed: that no
 //! two triangles of a strongly twisted patch intersect; that edges just under the splitting threshold
 //! are the best choice for very small holes.
 
-use super::connectivity::{Connectivity, Halfedge, next, prev};
+use super::connectivity::{Connectivity, Halfedge, next};
 use super::density::SizeField;
 use super::flip::{Blocked, Flipper};
 use super::locality::renumber;
-use super::relax::Relaxer;
+use super::relax::relax;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
@@ -28,11 +29,12 @@ use std::cmp::Reverse;
 /// other; only inputs on which splitting makes no headway come near this.
 const MAX_PASSES: usize = 128;
 
-/// A pass that adds less than this part of the vertices relaxes only the surroundings of its own.
-const LOCAL_PASS: f64 = 0.1;
+/// A pass that adds less than this part of the vertices is one of the last: the whole patch gets its
+/// final relaxations, and later passes relax only the surroundings of their own vertices.
+const LOCAL_PASS: f64 = 0.2;
 
 /// How many edges from a new vertex a local pass reaches.
-const LOCAL_RINGS: usize = 2;
+const LOCAL_RINGS: usize = 1;
 
 /// Patches with fewer vertices fit into the cache in any order.
 const RENUMBER_FROM: usize = 5_000;
@@ -61,7 +63,8 @@ pub(crate) struct RefineOptions {
     pub(crate) grading: f64,
     /// Relaxations after each pass of splits.
     pub(crate) pass_relaxations: usize,
-    /// Relaxations of the whole patch when nothing is left to split.
+    /// Relaxations of the whole patch when little is left to split; at least `pass_relaxations` if
+    /// the last pass split anything.
     pub(crate) final_relaxations: usize,
     /// Refinement that needs more vertices than this fails.
     pub(crate) max_vertices: usize,
@@ -134,7 +137,6 @@ pub(crate) fn refine(
         sizes: field,
         options,
         flipper: Flipper::new(blocked),
-        relaxer: Relaxer::new(),
         dirty: Vec::new(),
         ordered: surface.points.len().max(RENUMBER_FROM),
         report: RefineReport::default(),
@@ -146,13 +148,16 @@ pub(crate) fn refine(
     Ok(refiner.report)
 }
 
+/// How far an edge is above the length at which it is split, in quarters of an octave, and one of its
+/// half-edges.
+type LongEdge = (Reverse<u32>, Halfedge);
+
 struct Refiner<'a> {
     mesh: Connectivity,
     points: Vec<Vec3>,
     sizes: SizeField,
     options: &'a RefineOptions,
     flipper: Flipper<'a>,
-    relaxer: Relaxer,
     /// Edges whose Delaunay property a split or a move may have broken.
     dirty: Vec<Halfedge>,
     /// Number of vertices when they were last put in order.
@@ -163,36 +168,50 @@ struct Refiner<'a> {
 impl Refiner<'_> {
     fn run(&mut self) -> Result<()> {
         self.report.flips += self.flipper.restore_all(&mut self.mesh, &self.points);
-        self.split_until_short()?;
-        for _ in 0..self.options.final_relaxations {
+        let mut relaxations = self.options.final_relaxations;
+        for _ in 0..MAX_PASSES {
+            let before = self.mesh.vertex_count();
+            let long = self.all_long_edges();
+            let added = self.split_edges(long)?;
+            self.restore_dirty();
+            self.order_if_grown();
+            if added < local_limit(before) {
+                if added > 0 {
+                    relaxations = relaxations.max(self.options.pass_relaxations);
+                }
+                break;
+            }
+            for _ in 0..self.options.pass_relaxations {
+                self.relax_all();
+            }
+            #[cfg(test)]
+            self.mesh.validate();
+        }
+        for _ in 0..relaxations {
             self.relax_all();
             if self.report.last_move < SETTLED_MOVE {
                 break;
             }
         }
-        self.split_until_short()
+        self.split_the_rest()
     }
 
-    fn split_until_short(&mut self) -> Result<()> {
+    /// Passes until no edge is too long, each near where the last one split.
+    fn split_the_rest(&mut self) -> Result<()> {
         // Where the last pass worked, if that was not everywhere.
         let mut near: Option<Vec<u32>> = None;
         for _ in 0..MAX_PASSES {
             let before = self.mesh.vertex_count();
             let long = match &near {
-                Some(near) => self.long_edges(near.iter().flat_map(|&v| self.mesh.corners(v))),
-                None => self.long_edges((0..self.mesh.halfedge_count()).filter(|&h| {
-                    self.mesh.opposite(h).is_some_and(|g| h < g) // each edge once
-                })),
+                Some(near) => self.long_edges_at(near),
+                None => self.all_long_edges(),
             };
-            self.split_edges(long)?;
-            let added = self.mesh.vertex_count() - before;
+            let added = self.split_edges(long)?;
             if added == 0 && near.take().is_none() {
                 break;
             }
-            self.report.splits += added;
             self.restore_dirty();
-            let reordered = self.order_if_grown();
-            let local = (added as f64) < LOCAL_PASS * before as f64 && !reordered;
+            let local = !self.order_if_grown() && added < local_limit(before);
             near = (local && added > 0).then(|| self.vertices_near(before as u32));
             for _ in 0..self.options.pass_relaxations {
                 match &near {
@@ -217,8 +236,9 @@ impl Refiner<'_> {
         grown
     }
 
-    /// Length of an edge over the length at which it is split.
-    fn excess(&self, a: u32, b: u32) -> f64 {
+    /// The squared length of an edge over that at which it is split.
+    #[inline]
+    fn squared_excess(&self, a: u32, b: u32) -> f64 {
         let rim = self.mesh.rim_count();
         let factor = if (a.max(b) as usize) >= rim {
             self.options.split_factor
@@ -227,33 +247,56 @@ impl Refiner<'_> {
         } else {
             self.options.split_factor.max(SMALL_RIM_FACTOR)
         };
-        let length = (self.points[a as usize] - self.points[b as usize]).norm();
-        length / (0.5 * factor * (self.sizes.at(a) + self.sizes.at(b)))
+        let limit = 0.5 * factor * (self.sizes.at(a) + self.sizes.at(b));
+        let length = (self.points[a as usize] - self.points[b as usize]).norm_squared();
+        length / (limit * limit)
     }
 
-    /// Those of `edges` that are interior and too long, longest first to a quarter of an octave.
-    fn long_edges(&self, edges: impl Iterator<Item = Halfedge>) -> Vec<(Reverse<u32>, Halfedge)> {
-        // The leading bits of a positive float are its octave and quarter of an octave.
-        let quarter = |excess: f64| (excess.to_bits() >> 50) as u32;
-        let mut long: Vec<_> = edges
-            .filter_map(|h| Some(h.min(self.mesh.opposite(h)?)))
-            .map(|h| {
-                (
-                    Reverse(quarter(
-                        self.excess(self.mesh.origin(h), self.mesh.target(h)),
-                    )),
-                    h,
-                )
-            })
-            .filter(|(Reverse(class), _)| *class >= quarter(1.0))
-            .collect();
-        long.sort_unstable();
-        long.dedup();
+    /// Lists the edge of `h` from `a` to `b` if it is too long.
+    #[inline]
+    fn collect_long(&self, h: Halfedge, a: u32, b: u32, long: &mut Vec<LongEdge>) {
+        let excess = self.squared_excess(a, b);
+        if excess > 1.0 {
+            // The leading bits of a positive float are its octave and half of the octave.
+            long.push((Reverse((excess.to_bits() >> 51) as u32), h));
+        }
+    }
+
+    /// All interior edges that are too long, with their excess.
+    fn all_long_edges(&self) -> Vec<LongEdge> {
+        let mut long = Vec::new();
+        for (t, (&[a, b, c], opposite)) in self.mesh.triangles_and_opposites().enumerate() {
+            let h = 3 * t as Halfedge;
+            for (h, from, to, opposite) in [
+                (h, a, b, opposite[0]),
+                (h + 1, b, c, opposite[1]),
+                (h + 2, c, a, opposite[2]),
+            ] {
+                // each edge once
+                if opposite.is_some_and(|g| h < g) {
+                    self.collect_long(h, from, to, &mut long);
+                }
+            }
+        }
         long
     }
 
-    /// Splits the edges in turn, no two of one triangle.
-    fn split_edges(&mut self, long: Vec<(Reverse<u32>, Halfedge)>) -> Result<()> {
+    /// The same among the edges out of `vertices`; an edge may occur twice.
+    fn long_edges_at(&self, vertices: &[u32]) -> Vec<LongEdge> {
+        let mut long = Vec::new();
+        for &v in vertices {
+            for h in self.mesh.corners(v) {
+                self.collect_long(h, v, self.mesh.target(h), &mut long);
+            }
+        }
+        long
+    }
+
+    /// Splits the edges, longest first to a quarter of an octave, no two of one triangle. Returns the
+    /// number of splits.
+    fn split_edges(&mut self, mut long: Vec<LongEdge>) -> Result<usize> {
+        let before = self.mesh.vertex_count();
+        long.sort_by_key(|&(class, _)| class);
         let mut used = vec![false; self.mesh.triangles().len()];
         for (_, h) in long {
             let Some(g) = self.mesh.opposite(h) else {
@@ -276,7 +319,9 @@ impl Refiner<'_> {
             used[g as usize / 3] = true;
             self.split(h, g);
         }
-        Ok(())
+        let added = self.mesh.vertex_count() - before;
+        self.report.splits += added;
+        Ok(added)
     }
 
     fn split(&mut self, h: Halfedge, g: Halfedge) {
@@ -286,9 +331,8 @@ impl Refiner<'_> {
         self.sizes
             .push_midpoint(&self.points, &middle, [a, b], apexes);
         self.points.push(middle);
-        let outer = self.mesh.split(h, g);
-        self.dirty.extend(outer);
-        self.dirty.extend([h, next(h), prev(g), prev(outer[1])]);
+        // Halving a triangle leaves the four inner edges Delaunay.
+        self.dirty.extend(self.mesh.split(h, g));
     }
 
     fn restore_dirty(&mut self) {
@@ -317,9 +361,7 @@ impl Refiner<'_> {
     }
 
     fn relax_vertex(&mut self, v: u32) {
-        let way = self
-            .relaxer
-            .relax(&self.mesh, &mut self.points, &mut self.sizes, v);
+        let way = relax(&self.mesh, &mut self.points, &mut self.sizes, v);
         self.report.last_move = self.report.last_move.max(way);
     }
 
@@ -345,6 +387,11 @@ impl Refiner<'_> {
         near.sort_unstable();
         near
     }
+}
+
+/// Number of new vertices from which a pass that starts with `before` relaxes the whole patch.
+fn local_limit(before: usize) -> usize {
+    (LOCAL_PASS * before as f64) as usize + 1
 }
 
 #[cfg(test)]

@@ -10,9 +10,9 @@
 //! guaranteed: that a triangle which is already folded gets unfolded (it never gets worse), and that
 //! the vertex stays on a curved surface (it stays in the tangent plane).
 
-use super::connectivity::{Connectivity, prev};
+use super::connectivity::{Connectivity, Halfedge, prev};
 use super::density::SizeField;
-use crate::math::{Vec3, unit};
+use crate::math::Vec3;
 
 /// Part of the way to the centroid that one move goes; the full way oscillates.
 const STEP: f64 = 0.7;
@@ -21,109 +21,161 @@ const STEP: f64 = 0.7;
 /// ring.
 const FOLD_MARGIN: f64 = 0.1;
 
-/// Relaxes vertices of one patch; owns the one-ring buffer so that it is allocated once.
-pub(super) struct Relaxer {
-    /// The one-ring in order; its first vertex is repeated at the end.
-    ring: Vec<Neighbour>,
+/// What the triangles round a vertex amount to; offsets are relative to the vertex, normals have twice
+/// the area of their triangle.
+struct Ring {
+    normal: Vec3,
+    /// Three times the weighted sum of the centroids.
+    centroid: Vec3,
+    weight: f64,
+    triangle_count: u32,
+    /// Sum and minimum of the lengths of the normals.
+    total: f64,
+    smallest: f64,
+    /// Greatest squared distance of a neighbour.
+    reach: f64,
 }
 
-#[derive(Clone, Copy)]
-struct Neighbour {
-    vertex: u32,
-    /// Position relative to the vertex in the middle.
-    offset: Vec3,
-    /// Target edge length.
-    size: f64,
-}
-
-impl Relaxer {
-    pub(super) fn new() -> Self {
-        Self { ring: Vec::new() }
+/// Moves `v` if triangles surround it, updates its size, and returns the length of the move over the
+/// target edge length there.
+pub(super) fn relax(
+    mesh: &Connectivity,
+    points: &mut [Vec3],
+    sizes: &mut SizeField,
+    v: u32,
+) -> f64 {
+    let Some(start) = mesh.closed_start(v) else {
+        return 0.0;
+    };
+    let origin = points[v as usize];
+    let size = sizes.at(v);
+    let ring = Ring::new(mesh, points, sizes, start, &origin, size);
+    let step = limited_step(&ring, mesh, points, start, &origin);
+    let target = origin + step;
+    if !target.iter().all(|x| x.is_finite()) {
+        return 0.0;
     }
-
-    /// Moves `v` if triangles surround it, updates its size, and returns the length of the move over
-    /// the target edge length there.
-    pub(super) fn relax(
-        &mut self,
-        mesh: &Connectivity,
-        points: &mut [Vec3],
-        sizes: &mut SizeField,
-        v: u32,
-    ) -> f64 {
-        let Some(start) = mesh.closed_start(v) else {
-            return 0.0;
-        };
-        let origin = points[v as usize];
-        self.ring.clear();
-        let mut h = start;
-        loop {
-            let vertex = mesh.target(h);
-            let offset = points[vertex as usize] - origin;
-            self.ring.push(Neighbour {
-                vertex,
-                offset,
-                size: sizes.at(vertex),
-            });
-            match mesh.opposite(prev(h)) {
-                Some(turned) if turned != start => h = turned,
-                _ => break,
-            }
-        }
-        self.ring.push(self.ring[0]);
-        let size = sizes.at(v);
-        let step = self.limited_step(size);
-        let target = origin + step;
-        if !target.iter().all(|x| x.is_finite()) {
-            return 0.0;
-        }
-        points[v as usize] = target;
+    points[v as usize] = target;
+    if sizes.is_graded() {
+        let neighbours = mesh.corners(v).map(|h| mesh.target(h));
         sizes.measure_depth(
             v,
-            self.ring
-                .iter()
-                .map(|u| (u.vertex, (u.offset - step).norm())),
+            neighbours.map(|u| (u, (points[u as usize] - target).norm())),
         );
-        step.norm() / size
     }
+    step.norm() / size
+}
 
-    /// The outer edges of the incident triangles.
-    fn edges(&self) -> impl Iterator<Item = (&Neighbour, &Neighbour)> {
-        self.ring.windows(2).map(|pair| (&pair[0], &pair[1]))
-    }
-
-    fn limited_step(&self, size: f64) -> Vec3 {
-        let (mut normal, mut centroid, mut weight) = (Vec3::zeros(), Vec3::zeros(), 0.0);
-        for (b, c) in self.edges() {
-            let n = b.offset.cross(&c.offset);
-            let edge = size + b.size + c.size;
-            let w = n.norm() / (edge * edge);
-            normal += n;
-            centroid += (b.offset + c.offset) * (w / 3.0);
-            weight += w;
-        }
-        let up = unit(normal);
-        if up == Vec3::zeros() || weight <= f64::MIN_POSITIVE {
-            return Vec3::zeros();
-        }
-        let mut step = centroid / weight;
-        step -= up * step.dot(&up);
-        // Seen along `up`, each area changes linearly with the way gone: area - t * loss.
-        let floor = FOLD_MARGIN * normal.norm() / (self.ring.len() - 1) as f64;
-        let mut way = STEP;
-        for (b, c) in self.edges() {
-            let loss = step.cross(&(c.offset - b.offset)).dot(&up);
-            if loss > 0.0 {
-                let area = b.offset.cross(&c.offset).dot(&up);
-                way = way.min((area - floor).max(0.0) / loss);
+impl Ring {
+    /// Walks round the vertex at `origin`, which the half-edge `start` leaves.
+    fn new(
+        mesh: &Connectivity,
+        points: &[Vec3],
+        sizes: &SizeField,
+        start: Halfedge,
+        origin: &Vec3,
+        size: f64,
+    ) -> Self {
+        let mut ring = Self {
+            normal: Vec3::zeros(),
+            centroid: Vec3::zeros(),
+            weight: 0.0,
+            triangle_count: 0,
+            total: 0.0,
+            smallest: f64::INFINITY,
+            reach: 0.0,
+        };
+        let first = mesh.target(start);
+        let (mut b, mut b_size) = (points[first as usize] - origin, sizes.at(first));
+        let mut h = start;
+        loop {
+            let back = prev(h);
+            let vertex = mesh.origin(back);
+            let (c, c_size) = (points[vertex as usize] - origin, sizes.at(vertex));
+            let normal = b.cross(&c);
+            let length = normal.norm();
+            let edge = size + b_size + c_size;
+            let weight = length / (edge * edge);
+            ring.normal += normal;
+            ring.centroid += (b + c) * weight;
+            ring.weight += weight;
+            ring.triangle_count += 1;
+            ring.total += length;
+            ring.smallest = if length < ring.smallest {
+                length
+            } else {
+                ring.smallest
+            };
+            let distance = c.norm_squared();
+            ring.reach = if distance > ring.reach {
+                distance
+            } else {
+                ring.reach
+            };
+            (b, b_size) = (c, c_size);
+            match mesh.opposite(back) {
+                Some(turned) if turned != start => h = turned,
+                _ => return ring,
             }
         }
-        step * way
     }
+}
+
+/// The way towards the centroid, in the tangent plane, as far as no triangle gets too small.
+fn limited_step(
+    ring: &Ring,
+    mesh: &Connectivity,
+    points: &[Vec3],
+    start: Halfedge,
+    origin: &Vec3,
+) -> Vec3 {
+    let height = ring.normal.norm();
+    if height <= f64::MIN_POSITIVE || ring.weight <= f64::MIN_POSITIVE {
+        return Vec3::zeros();
+    }
+    let up = ring.normal / height;
+    let mut step = ring.centroid * (STEP / (3.0 * ring.weight));
+    step -= up * step.dot(&up);
+    let floor = FOLD_MARGIN * height / f64::from(ring.triangle_count);
+    // What the normals lose in their sum is what they lose, all together, when seen along `up`, so no
+    // area is smaller than this. None shrinks by more than `step` times the outer edge, which is at
+    // most twice the reach.
+    let least_area = ring.smallest - (ring.total - height);
+    let room = least_area - floor;
+    if room > 0.0 && 4.0 * ring.reach * step.norm_squared() < room * room {
+        return step;
+    }
+    step * way_to_fold(mesh, points, start, origin, &up, &step, floor)
+}
+
+/// The part of `step` after which the first triangle that shrinks has area `floor`, at most 1.
+fn way_to_fold(
+    mesh: &Connectivity,
+    points: &[Vec3],
+    start: Halfedge,
+    origin: &Vec3,
+    up: &Vec3,
+    step: &Vec3,
+    floor: f64,
+) -> f64 {
+    let mut way: f64 = 1.0;
+    for h in mesh.corners(mesh.origin(start)) {
+        let b = points[mesh.target(h) as usize] - origin;
+        let c = points[mesh.apex(h) as usize] - origin;
+        // Seen along `up`, each area changes linearly with the way gone: area - t * loss.
+        let loss = step.cross(&(c - b)).dot(up);
+        if loss > 0.0 {
+            let area = b.cross(&c).dot(up);
+            way = way.min((area - floor).max(0.0) / loss);
+        }
+    }
+    way
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::unit;
     use crate::patch::PatchSurface;
     use proptest::prelude::*;
     use std::f64::consts::TAU;
@@ -167,7 +219,7 @@ mod tests {
     fn the_hub_of_a_regular_wheel_stays() {
         let (mesh, mut points) = wheel(hexagon(0.2), Vec3::zeros());
         let mut sizes = sizes(&mesh, &points, 0.0);
-        assert!(Relaxer::new().relax(&mesh, &mut points, &mut sizes, 6) < 1e-15);
+        assert!(relax(&mesh, &mut points, &mut sizes, 6) < 1e-15);
     }
 
     #[test]
@@ -175,9 +227,8 @@ mod tests {
         let (mesh, mut points) = wheel(hexagon(0.0), Vec3::new(0.7, 0.3, 0.0));
         let rim = points[..6].to_vec();
         let mut sizes = sizes(&mesh, &points, 0.0);
-        let mut relaxer = Relaxer::new();
         for v in (0..7).cycle().take(7 * 30) {
-            relaxer.relax(&mesh, &mut points, &mut sizes, v);
+            relax(&mesh, &mut points, &mut sizes, v);
         }
         assert!(points[6].norm() < 1e-6);
         assert_eq!(points[..6], rim, "the rim does not move");
@@ -188,7 +239,7 @@ mod tests {
         let p = Vec3::new(3.0, 4.0, 5.0);
         let (mesh, mut points) = wheel(vec![p; 5], p);
         let mut sizes = sizes(&mesh, &points, 0.3);
-        assert_eq!(Relaxer::new().relax(&mesh, &mut points, &mut sizes, 5), 0.0);
+        assert_eq!(relax(&mesh, &mut points, &mut sizes, 5), 0.0);
         assert_eq!(points[5], p);
     }
 
@@ -212,14 +263,13 @@ mod tests {
                     .map(|i| (points[i] - points[n]).cross(&(points[(i + 1) % n] - points[n])).dot(up))
                     .collect()
             };
-            let mut relaxer = Relaxer::new();
             for _ in 0..5 {
                 let normal: Vec3 =
                     (0..n).map(|i| (points[i] - points[n]).cross(&(points[(i + 1) % n] - points[n]))).sum();
                 let up = unit(normal);
                 let floor = FOLD_MARGIN * normal.norm() / n as f64;
                 let before = areas(&points, &up);
-                relaxer.relax(&mesh, &mut points, &mut sizes, n as u32);
+                relax(&mesh, &mut points, &mut sizes, n as u32);
                 for (old, new) in before.iter().zip(areas(&points, &up)) {
                     prop_assert!(new >= old.min(floor) - 1e-12, "{} became {}", old, new);
                 }

@@ -58,7 +58,6 @@ pub(super) fn clip(
     Ok(clipper.finish())
 }
 
-
 /// A place in the queue; stale when the position has been cut or has a newer version.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Entry {

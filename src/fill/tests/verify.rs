@@ -1,0 +1,193 @@
+//! A patch that is wrong in any way is caught.
+
+use super::{mesh_of, with_method};
+use crate::boundary::loops::BoundaryLoops;
+use crate::error::{ErrorKind, Result};
+use crate::fill::hole::Hole;
+use crate::fill::method::Method;
+use crate::fill::staircase::Staircase;
+use crate::fill::verify::{check_against_mesh, check_patch};
+use crate::fixtures::{self, Arrays};
+use crate::math::Vec3;
+use crate::mesh::trimesh::TriMesh;
+use crate::patch::PatchSurface;
+
+/// The hole of a mesh with one loop, and its patch.
+fn hole_and_patch(arrays: &Arrays, method: Method) -> (TriMesh, Hole, PatchSurface) {
+    let mesh = mesh_of(arrays);
+    let boundary = BoundaryLoops::find(&mesh);
+    let hole = Hole::new(&mesh, &boundary.loops[0], &[], 2).unwrap();
+    let options = with_method(method);
+    let surface = Staircase::new(&hole, &options, &|| false)
+        .patch(method)
+        .unwrap();
+    (mesh, hole, surface)
+}
+
+fn sphere_cap() -> (TriMesh, Hole, PatchSurface) {
+    hole_and_patch(
+        &fixtures::sphere(10).jittered(0.01, 3).cut(|c| c[2] > 0.6),
+        Method::FairC1,
+    )
+}
+
+fn kind(result: Result<()>) -> Option<ErrorKind> {
+    result.err().map(|e| e.kind())
+}
+
+/// Panics unless the change to a valid patch is caught as `expected`.
+fn assert_caught(expected: ErrorKind, what: &str, change: impl Fn(&mut PatchSurface)) {
+    let (_, hole, mut surface) = sphere_cap();
+    assert_eq!(kind(check_patch(&hole, &surface)), None);
+    change(&mut surface);
+    assert_eq!(kind(check_patch(&hole, &surface)), Some(expected), "{what}");
+}
+
+#[test]
+fn a_patch_as_it_is_made_is_accepted() {
+    for method in super::METHODS {
+        let (mesh, hole, surface) =
+            hole_and_patch(&fixtures::sphere(9).cut(|c| c[0] > 0.5), method);
+        assert_eq!(kind(check_patch(&hole, &surface)), None);
+        let global = |v: u32| match (v as usize).checked_sub(surface.rim_count) {
+            Some(new) => (mesh.positions().len() + new) as u32,
+            None => hole.rim[v as usize],
+        };
+        let triangles: Vec<_> = surface.triangles.iter().map(|t| t.map(global)).collect();
+        assert_eq!(kind(check_against_mesh(&mesh, &hole, &triangles)), None);
+    }
+}
+
+#[test]
+fn each_single_triangle_that_is_missing_turned_or_doubled_is_caught() {
+    let count = sphere_cap().2.triangles.len();
+    assert!(count > 40);
+    for f in 0..count {
+        let (what, topology) = (format!("triangle {f}"), ErrorKind::Topology);
+        assert_caught(topology, &what, |s| {
+            s.triangles.remove(f);
+        });
+        assert_caught(topology, &what, |s| s.triangles[f].swap(0, 1));
+        assert_caught(topology, &what, |s| s.triangles.push(s.triangles[f]));
+        assert_caught(topology, &what, |s| s.triangles[f][1] = s.triangles[f][0]);
+    }
+}
+
+#[test]
+fn a_patch_turned_as_a_whole_or_empty_is_caught() {
+    assert_caught(ErrorKind::Topology, "turned", |s| {
+        s.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    });
+    assert_caught(ErrorKind::Topology, "empty", |s| s.triangles.clear());
+    assert_caught(ErrorKind::Topology, "unused", |s| {
+        s.points.push(s.points[0])
+    });
+}
+
+#[test]
+fn a_piece_that_hangs_loose_is_caught() {
+    let add_tetrahedron = |s: &mut PatchSurface, corner: Option<u32>| {
+        let v = s.points.len() as u32;
+        let near = s.points[s.rim_count];
+        let count = if corner.is_some() { 3 } else { 4 };
+        for k in 0..count {
+            let mut p = near;
+            p[k % 3] += 0.1 + 0.05 * k as f64;
+            s.points.push(p);
+        }
+        let c = corner.unwrap_or(v + 3);
+        s.triangles.extend([
+            [v, v + 2, v + 1],
+            [v, v + 1, c],
+            [v + 1, v + 2, c],
+            [v + 2, v, c],
+        ]);
+    };
+    assert_caught(ErrorKind::Topology, "floating", |s| {
+        add_tetrahedron(s, None)
+    });
+    assert_caught(ErrorKind::Topology, "on a vertex", |s| {
+        add_tetrahedron(s, Some(s.rim_count as u32));
+    });
+}
+
+#[test]
+fn positions_that_cannot_be_are_caught() {
+    let geometry = ErrorKind::Geometry;
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e3] {
+        assert_caught(geometry, &bad.to_string(), |s| {
+            s.points[s.rim_count].y = bad
+        });
+    }
+    assert_caught(geometry, "no area", |s| {
+        let [a, b, c] = *s.triangles.last().unwrap();
+        let inner = [a, b, c].into_iter().max().unwrap() as usize;
+        let other = [a, b, c].into_iter().min().unwrap() as usize;
+        s.points[inner] = s.points[other];
+    });
+}
+
+#[test]
+fn an_edge_that_the_mesh_has_already_is_caught() {
+    // The rim of two triangles: its diagonal 1-2 is taken, 0-3 is free.
+    let mesh = mesh_of(&fixtures::two_triangles());
+    let boundary = BoundaryLoops::find(&mesh);
+    let hole = Hole::new(&mesh, &boundary.loops[0], &[], 1).unwrap();
+    let at = |v: u32| hole.rim.iter().position(|&r| r == v).unwrap() as u32;
+    let patch = |triangles: [[u32; 3]; 2]| PatchSurface {
+        rim_count: 4,
+        points: hole.points.clone(),
+        triangles: triangles.map(|t| t.map(at)).to_vec(),
+    };
+    let free = patch([[0, 2, 3], [0, 3, 1]]);
+    assert_eq!(kind(check_patch(&hole, &free)), None);
+    let taken = patch([[0, 2, 1], [1, 2, 3]]);
+    assert_eq!(kind(check_patch(&hole, &taken)), Some(ErrorKind::Topology));
+    let caught = |triangles: &[[u32; 3]]| kind(check_against_mesh(&mesh, &hole, triangles));
+    assert_eq!(caught(&[[0, 2, 3], [0, 3, 1]]), None);
+    assert_eq!(caught(&[[0, 2, 1], [1, 2, 3]]), Some(ErrorKind::Topology));
+}
+
+#[test]
+fn a_rim_that_was_closed_in_the_meantime_is_caught() {
+    let mut mesh = mesh_of(&fixtures::triangle().with_vertex([0.0, 0.0, 1.0]));
+    let boundary = BoundaryLoops::find(&mesh);
+    let hole = Hole::new(&mesh, &boundary.loops[0], &[], 1).unwrap();
+    let tent = [[1, 0, 3], [2, 1, 3], [0, 2, 3]];
+    assert_eq!(kind(check_against_mesh(&mesh, &hole, &tent)), None);
+    let lid = [[0, 2, 1]];
+    assert_eq!(
+        kind(check_against_mesh(&mesh, &hole, &lid)),
+        Some(ErrorKind::Topology)
+    );
+    mesh.append(&[], &tent, |_, faces| faces.append_copies(&[0; 3]))
+        .unwrap();
+    assert_eq!(
+        kind(check_against_mesh(&mesh, &hole, &lid)),
+        Some(ErrorKind::Topology)
+    );
+}
+
+#[test]
+fn the_coordinates_of_a_hole_are_those_of_the_mesh_moved_and_scaled() {
+    let arrays = fixtures::sphere(10)
+        .cut(|c| c[2] > 0.6)
+        .moved(1e3, 1.0, [1e6, 0.0, -1e6]);
+    let mesh = mesh_of(&arrays);
+    let boundary = BoundaryLoops::find(&mesh);
+    let hole = Hole::new(&mesh, &boundary.loops[0], &[], 2).unwrap();
+    let n = hole.rim.len();
+    assert!(hole.points.iter().sum::<Vec3>().norm() < 1e-6);
+    let perimeter: f64 = (0..n)
+        .map(|i| (hole.points[(i + 1) % n] - hole.points[i]).norm())
+        .sum();
+    assert!((perimeter / n as f64 - 1.0).abs() < 1e-9);
+    for (p, &v) in hole.points.iter().zip(&hole.rim) {
+        assert!((Vec3::from(hole.to_mesh(p)) - mesh.point(v)).norm() < 1e-8);
+    }
+    // The polygon runs against the loop.
+    let l = &boundary.loops[0].vertices;
+    let at = hole.polygon.iter().map(|&i| hole.rim[i as usize]);
+    let expected = (0..n).map(|i| l[(n - i) % n]);
+    assert!(at.eq(expected));
+}

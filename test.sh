@@ -1,0 +1,116 @@
+#!/usr/bin/env bash
+# Every check of this repository. Needs a Rust toolchain; fetches what else is missing if it can.
+#
+#     ./test.sh
+#
+# Where something is missing and cannot be fetched, the checks that need it are skipped, and the last lines
+# say so. With CI=true in the environment that is a failure.
+set -euo pipefail
+cd "$(dirname "$0")"
+exec </dev/null
+command -v cargo >/dev/null || PATH="$HOME/.cargo/bin:$PATH"
+
+skipped=()
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+say() { printf '\n=== %s\n' "$*"; }
+
+fail() {
+    printf '\nFAILED: %s\n' "$*" >&2
+    exit 1
+}
+
+skip() {
+    printf '\n!!! SKIPPED: %s\n' "$*"
+    skipped+=("$*")
+    [ "${CI:-}" != true ] || fail "$* (with CI=true nothing may be skipped)"
+}
+
+# Installs Debian packages if this is a Debian or Ubuntu machine and we may.
+apt_install() {
+    if command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; then
+        apt-get update && DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@"
+    else
+        echo "missing; on Debian or Ubuntu, as root: apt-get update && apt-get install $*"
+        return 1
+    fi
+}
+
+# Whether a part of the Rust toolchain is there; fetches it by rustup if it is not.
+have_component() {
+    cargo "$1" --version >/dev/null 2>&1 && return
+    if command -v rustup >/dev/null; then
+        rustup component add "$2" && cargo "$1" --version
+    else
+        echo "missing: cargo $1, part of the Rust toolchain"
+        return 1
+    fi
+}
+
+holefill() { cargo run --locked --release --quiet -- "$@"; }
+
+say "tools"
+command -v cargo >/dev/null || fail "there is no cargo: install Rust 1.90 or newer, see https://rustup.rs"
+rustc --version
+if ! command -v cc >/dev/null && ! apt_install gcc libc6-dev; then
+    fail "there is no C compiler, which Rust needs to link programs"
+fi
+
+say "format"
+if have_component fmt rustfmt; then
+    cargo fmt --all --check
+else
+    skip "the check of the format: no rustfmt"
+fi
+
+say "lints"
+if have_component clippy clippy; then
+    cargo clippy --locked --workspace --all-targets -- -D warnings
+else
+    skip "the lints: no clippy"
+fi
+
+say "tests"
+# With the output of tests that pass: it says what they left out.
+cargo test --locked --workspace -- --show-output 2>&1 | tee "$scratch/tests"
+
+say "documentation"
+RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps
+
+say "release build"
+cargo build --locked --release --workspace
+
+say "demo"
+demo="$scratch/demo"
+holefill demo "$demo"
+for file in damaged.ply filled.ply report.json preview.png; do
+    [ -s "$demo/$file" ] || fail "the demo wrote no $file"
+done
+[ "$(head -c 8 "$demo/preview.png" | tail -c 7 | tr -d '\r\n\032')" = PNG ] || fail "the picture is no PNG"
+holefill inspect "$demo/damaged.ply" --json | tr -d ' \n' | grep -q '"loops":\[{' ||
+    fail "the demo's damaged model has no hole"
+holefill inspect "$demo/filled.ply" --json | tr -d ' \n' | grep -q '"loops":\[\]' ||
+    fail "the demo left a hole open"
+
+say "the same bytes for any number of threads, and again"
+for method in flat membrane fair-c1 fair-c2; do
+    for threads in 1 2 1 2; do
+        holefill fill "$demo/damaged.ply" -o "$scratch/out.ply" --method "$method" --threads "$threads" --quiet
+        sha256sum <"$scratch/out.ply" | cut -d" " -f1
+    done >"$scratch/sums"
+    printf '%-9s %s\n' "$method" "$(sort -u "$scratch/sums" | tr '\n' ' ')"
+    [ "$(sort -u "$scratch/sums" | wc -l)" = 1 ] || fail "$method gives different files"
+done
+
+say "summary"
+grep -E '^ *(Running|Doc-tests) |^test result' "$scratch/tests"
+grep -E 'SKIPPED|^CASES' "$scratch/tests" | sort -u || true
+for reason in ${skipped[@]+"${skipped[@]}"}; do
+    printf '!!! SKIPPED: %s\n' "$reason"
+done
+if [ ${#skipped[@]} = 0 ]; then
+    echo "All checks passed."
+else
+    echo "All checks passed but the ${#skipped[@]} that were skipped."
+fi

@@ -18,7 +18,6 @@
 //! # Ok::<(), holefill::Error>(())
 //! ```
 #![deny(rustdoc::broken_intra_doc_links)]
-#![allow(dead_code)]
 
 mod boundary;
 mod error;

@@ -3,7 +3,7 @@
 use super::classify::{LoopClass, classify};
 use crate::math::Vec3;
 use crate::math::aabb::Aabb;
-use crate::math::plane::fit_plane;
+use crate::math::plane::principal_spreads;
 use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD, origin, previous, target};
 use crate::mesh::rings::{FanEnd, walk_fan};
 use crate::mesh::trimesh::TriMesh;
@@ -290,7 +290,7 @@ fn measure(mesh: &TriMesh, id: usize, chain: &Chain) -> BoundaryLoop {
     }
     let length = |i: usize| (points[(i + 1) % points.len()] - points[i]).norm();
     let perimeter = (0..halfedges.len()).map(length).sum();
-    let spread = fit_plane(&points).map_or([0.0; 3], |plane| plane.spread);
+    let spread = principal_spreads(&points);
     let total = spread.iter().map(|s| s * s).sum::<f64>().sqrt();
     BoundaryLoop {
         id,

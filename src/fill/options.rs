@@ -14,8 +14,9 @@ pub struct FillOptions {
     pub method: Method,
     /// Seed of the methods that use random numbers; default 0. The methods of this version use none.
     pub seed: u64,
-    /// Threads to fill with; 0 (the default) takes as many as there are processors. The result is
-    /// the same for any number.
+    /// Threads that fill holes at the same time; 0 (the default) takes as many as there are processors,
+    /// 1 fills them on the calling thread. Intersection tests of patches with more than a few hundred
+    /// triangles are shared out to rayon's current pool besides. The result is the same for any number.
     pub threads: usize,
     /// Whether another method is tried when the patch of the chosen one cannot be used; default true.
     pub fallback: bool,
@@ -28,7 +29,7 @@ pub struct FillOptions {
     /// Target edge length of new triangles relative to the rim's; default 1.
     pub density: f64,
     /// How fast the target edge length grows away from the rim, per unit of length; `None` (the
-    /// default) grows it only for rims of more than 200 edges, see `docs/methods/staircase.md`.
+    /// default) grows it only for rims of more than 250 edges, see `docs/methods/staircase.md`.
     pub grading: Option<f64>,
     /// Largest number of new vertices in one hole; default 10,000,000.
     pub max_new_vertices: usize,

@@ -14,7 +14,7 @@ use crate::math::Vec3;
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::PatchSurface;
 use crate::quality::Surface;
-use crate::quality::self_intersection::{AppendedPatch, Search, SelfIntersections, count};
+use crate::quality::self_intersection::{AppendedPatch, SelfIntersections, count};
 use crate::quality::shape::smallest_angle;
 use crate::quality::spatial::FaceIndex;
 
@@ -154,7 +154,7 @@ impl Planner<'_> {
             points: self.mesh.points(),
             triangles: self.mesh.triangles(),
         };
-        let intersections = count(mesh, self.faces, patch, Search::All);
+        let intersections = count(mesh, self.faces, patch);
         Ok(Candidate {
             method,
             surface,

@@ -12,7 +12,7 @@ use crate::math::aabb::Aabb;
 use crate::math::box_tree::BoxTree;
 use crate::mesh::trimesh::TriMesh;
 use crate::quality::Surface;
-use crate::quality::self_intersection::{AppendedPatch, Search, count};
+use crate::quality::self_intersection::{AppendedPatch, count};
 use crate::quality::spatial::FaceIndex;
 use std::ops::Range;
 
@@ -191,7 +191,7 @@ impl<'a> Stitcher<'a> {
                     points: self.mesh.points(),
                     triangles: &self.mesh.triangles()[range],
                 };
-                count(other, &FaceIndex::build(other), patch, Search::All).with_mesh
+                count(other, &FaceIndex::build(other), patch).with_mesh
             })
             .sum()
     }

@@ -27,18 +27,6 @@ struct PackedBox {
 }
 
 impl PackedBox {
-    const EMPTY: Self = Self {
-        lo: [f32::INFINITY; 3],
-        hi: [f32::NEG_INFINITY; 3],
-    };
-
-    fn union(self, other: &Self) -> Self {
-        Self {
-            lo: std::array::from_fn(|k| self.lo[k].min(other.lo[k])),
-            hi: std::array::from_fn(|k| self.hi[k].max(other.hi[k])),
-        }
-    }
-
     fn centre(&self) -> [f32; 3] {
         std::array::from_fn(|k| 0.5 * self.lo[k] + 0.5 * self.hi[k])
     }
@@ -229,11 +217,6 @@ impl BoxTree {
             siblings,
             levels,
         }
-    }
-
-    /// Number of boxes.
-    pub(crate) fn len(&self) -> usize {
-        self.order.len()
     }
 
     /// Puts the ids of all boxes that overlap `query` into `found`, in ascending order; `found` is cleared

@@ -1,39 +1,50 @@
-//! The plane of least squares through a set of points.
+//! How a set of points spreads along its principal directions.
 
-use super::{Vec3, unit};
+use super::Vec3;
 use nalgebra::{Matrix3, SymmetricEigen};
 
-/// A plane through `origin`, with the spread of the points along its three principal directions.
-#[derive(Clone, Debug)]
-pub(crate) struct FittedPlane {
-    /// Centroid of the points.
-    pub(crate) origin: Vec3,
-    /// Unit directions by falling spread; the last one is the plane's normal.
-    pub(crate) axes: [Vec3; 3],
-    /// Root mean square distance from the centroid along each axis.
-    pub(crate) spread: [f64; 3],
-}
-
-/// Fits a plane to `points` by principal component analysis; `None` when there are none.
-pub(crate) fn fit_plane(points: &[Vec3]) -> Option<FittedPlane> {
+/// Root mean square distance of `points` from their centroid along each principal direction, largest first;
+/// zeros when there is no point. The last one is the distance from the plane of least squares.
+pub(crate) fn principal_spreads(points: &[Vec3]) -> [f64; 3] {
     if points.is_empty() {
-        return None;
+        return [0.0; 3];
     }
     let count = points.len() as f64;
-    let origin = points.iter().sum::<Vec3>() / count;
+    let centroid = points.iter().sum::<Vec3>() / count;
     let mut covariance = Matrix3::zeros();
     for p in points {
-        let d = p - origin;
+        let d = p - centroid;
         covariance += d * d.transpose();
     }
-    let eigen = SymmetricEigen::new(covariance / count);
-    let mut order = [0, 1, 2];
-    order.sort_by(|&i, &j| eigen.eigenvalues[j].total_cmp(&eigen.eigenvalues[i]));
-    let axis = |k: usize| unit(eigen.eigenvectors.column(order[k]).into_owned());
-    let spread = |k: usize| eigen.eigenvalues[order[k]].max(0.0).sqrt();
-    Some(FittedPlane {
-        origin,
-        axes: [axis(0), axis(1), axis(2)],
-        spread: [spread(0), spread(1), spread(2)],
-    })
+    let variances = SymmetricEigen::new(covariance / count).eigenvalues;
+    let mut spreads = [0, 1, 2].map(|k: usize| variances[k].max(0.0).sqrt());
+    spreads.sort_by(|a, b| b.total_cmp(a));
+    spreads
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_box_spreads_by_half_its_sides_wherever_it_lies() {
+        let turn = nalgebra::Rotation3::from_euler_angles(0.3, 1.1, -0.7);
+        let corners: Vec<Vec3> = (0..8)
+            .map(|i| Vec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2)))
+            .map(|p| turn * p.component_mul(&Vec3::new(2.0, 6.0, 4.0)) + Vec3::repeat(9.0))
+            .collect();
+        let spreads = principal_spreads(&corners);
+        for (spread, expected) in spreads.iter().zip([3.0, 2.0, 1.0]) {
+            assert!((spread - expected).abs() < 1e-12, "{spreads:?}");
+        }
+    }
+
+    #[test]
+    fn points_of_a_plane_a_line_and_one_place_have_no_spread_across() {
+        let plane = [Vec3::zeros(), Vec3::x(), Vec3::y()];
+        assert!(principal_spreads(&plane)[2] < 1e-12);
+        assert!(principal_spreads(&[Vec3::zeros(), Vec3::x()])[1] < 1e-12);
+        assert_eq!(principal_spreads(&[Vec3::repeat(3.0); 4]), [0.0; 3]);
+        assert_eq!(principal_spreads(&[]), [0.0; 3]);
+    }
 }

@@ -10,6 +10,7 @@ pub(crate) mod self_intersection;
 mod separation;
 pub(crate) mod shape;
 pub(crate) mod spatial;
+#[cfg(test)]
 pub(crate) mod topology;
 
 use crate::math::Vec3;

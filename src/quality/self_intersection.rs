@@ -40,15 +40,6 @@ pub(crate) struct AppendedPatch<'a> {
     pub(crate) triangles: &'a [[u32; 3]],
 }
 
-/// When to stop looking.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Search {
-    /// Count every pair.
-    All,
-    /// Stop early once something is found; the counts are then lower bounds.
-    First,
-}
-
 /// Two triangles that intersect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Pair {
@@ -100,7 +91,6 @@ pub(crate) fn count(
     mesh: Surface<'_>,
     faces: &FaceIndex,
     patch: AppendedPatch<'_>,
-    search: Search,
 ) -> SelfIntersections {
     let corners_of = |triangle: &[u32; 3]| {
         triangle.map(|v| match (v as usize).checked_sub(mesh.points.len()) {
@@ -120,7 +110,7 @@ pub(crate) fn count(
     if corners.len() <= PIECE {
         task.sweep()
     } else {
-        task.search_in_parallel(search)
+        task.search_in_parallel()
     }
 }
 
@@ -226,10 +216,10 @@ impl Task<'_> {
         }
     }
 
-    fn search_in_parallel(&self, search: Search) -> SelfIntersections {
+    fn search_in_parallel(&self) -> SelfIntersections {
         let own = BoxTree::build(self.boxes.len(), |i| self.boxes[i]);
         let pieces = (0..self.boxes.len().div_ceil(PIECE)).into_par_iter();
-        let tallies = pieces.map(|p| {
+        let search = |p: usize| {
             let piece = p * PIECE..((p + 1) * PIECE).min(self.boxes.len());
             let separators = self.separators(piece.clone());
             let mut pairs = Vec::new();
@@ -242,18 +232,11 @@ impl Task<'_> {
             }
             self.search_mesh(piece, &separators, &mut pairs);
             tally(pairs)
-        });
-        match search {
-            Search::All => {
-                let tallies: Vec<_> = tallies.collect();
-                tallies
-                    .into_iter()
-                    .fold(SelfIntersections::default(), SelfIntersections::merge)
-            }
-            Search::First => tallies
-                .find_first(|tally| tally.total() > 0)
-                .unwrap_or_default(),
-        }
+        };
+        let tallies: Vec<_> = pieces.map(search).collect();
+        tallies
+            .into_iter()
+            .fold(SelfIntersections::default(), SelfIntersections::merge)
     }
 }
 
@@ -295,13 +278,9 @@ mod tests {
 
     fn check(mesh: Surface<'_>, patch: AppendedPatch<'_>) -> SelfIntersections {
         let faces = FaceIndex::build(mesh);
-        let all = count(mesh, &faces, patch, Search::All);
-        assert_eq!(all, by_all_pairs(mesh, patch));
-        let first = count(mesh, &faces, patch, Search::First);
-        assert_eq!(first.total() > 0, all.total() > 0);
-        assert!(first.within_patch <= all.within_patch && first.with_mesh <= all.with_mesh);
-        assert_eq!(first.examples.first(), all.examples.first());
-        all
+        let found = count(mesh, &faces, patch);
+        assert_eq!(found, by_all_pairs(mesh, patch));
+        found
     }
 
     proptest! {
@@ -428,7 +407,7 @@ mod tests {
                 triangles: &triangles,
             };
             let faces = FaceIndex::build(mesh);
-            let found = count(mesh, &faces, patch, Search::All);
+            let found = count(mesh, &faces, patch);
             assert_eq!(found, by_all_pairs(mesh, patch));
         }
     }

@@ -35,11 +35,6 @@ impl FaceIndex {
         }
     }
 
-    /// Number of faces indexed.
-    pub(crate) fn len(&self) -> usize {
-        self.tree.len()
-    }
-
     /// Puts all faces whose box overlaps `query` into `found`, in ascending order; `found` is
     /// cleared first.
     ///

@@ -19,6 +19,7 @@ use std::time::Instant;
 pub(crate) fn run(args: &FillArgs) -> Result<Outcome, Failure> {
     check_destinations(args)?;
     let options = options(args)?;
+    limit_threads(options.threads)?;
     let selection = selection(args)?;
 
     let Loaded {
@@ -95,6 +96,14 @@ fn check_destinations(args: &FillArgs) -> Result<(), Failure> {
         destination::check(path)?;
     }
     Ok(())
+}
+
+/// Keeps all parallel work, that of reading in the mesh included, to this many threads; 0 is no limit.
+fn limit_threads(threads: usize) -> Result<(), Failure> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build_global()
+        .map_err(|e| Failure::file(format!("cannot start {threads} threads: {e}")))
 }
 
 fn options(args: &FillArgs) -> Result<FillOptions, Failure> {

@@ -19,7 +19,7 @@ use crate::math::Vec3;
 use crate::mesh::connectivity::BOUNDARY;
 use crate::mesh::trimesh::TriMesh;
 use crate::quality::Surface;
-use crate::quality::self_intersection::{AppendedPatch, Search, count};
+use crate::quality::self_intersection::{AppendedPatch, count};
 use crate::quality::spatial::FaceIndex;
 use crate::quality::topology::{Topology, examine};
 use std::collections::BTreeSet;
@@ -221,7 +221,7 @@ impl Filled {
             points: &self.after.points()[self.before.positions().len()..],
             triangles: self.new_triangles(),
         };
-        count(mesh, &FaceIndex::build(mesh), patch, Search::All).total()
+        count(mesh, &FaceIndex::build(mesh), patch).total()
     }
 
     /// The largest angle in radians between the normals of a new and an old triangle at an edge of a

@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 
 /// Systems of up to this many unknowns are solved densely: the bookkeeping of a sparse factorisation would
 /// cost more than the zeros.
-const DENSE_LIMIT: usize = 96;
+const DENSE_LIMIT: usize = 128;
 
 /// Added to the diagonal, relative to its mean, against loss of definiteness by rounding.
 const RELATIVE_SHIFT: f64 = 1e-12;

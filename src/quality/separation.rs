@@ -71,9 +71,7 @@ impl Separator {
     #[inline]
     pub(super) fn clears(&self, vertices: &[u32; 3], corners: &[Vec3; 3]) -> bool {
         let extent = extent(corners).max(self.extent);
-        // Also false for what is not a number.
-        let is_sound = extent * extent <= self.sound_extent_sq;
-        if !is_sound {
+        if extent * extent > self.sound_extent_sq {
             return false;
         }
         let is_common = vertices.map(|v| self.vertices.contains(&v));

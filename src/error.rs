@@ -39,6 +39,11 @@ impl Error {
         }
     }
 
+    /// The caller asked to stop.
+    pub(crate) fn cancelled() -> Self {
+        Self::new(ErrorKind::Cancelled, "stopped by the caller")
+    }
+
     /// The cause.
     #[must_use]
     pub fn kind(&self) -> ErrorKind {

@@ -63,7 +63,8 @@ impl fmt::Display for LoopClass {
 
 /// Sets the class of every closed, oriented loop.
 ///
-/// O(n log n) in the number of loops, and linear in the triangles along them and in those of the islands.
+/// O(n log n) in the number of loops, linear in the triangles along them and in those of the islands; an island
+/// costs its edges times those of the holes whose box it lies in.
 pub(super) fn classify(mesh: &TriMesh, loops: &mut [BoundaryLoop]) {
     mark_touching(loops);
     let alignments: Vec<f64> = loops.iter().map(|l| outer_rim_alignment(mesh, l)).collect();

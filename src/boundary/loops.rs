@@ -9,7 +9,8 @@ use crate::mesh::rings::{FanEnd, walk_fan};
 use crate::mesh::trimesh::TriMesh;
 use std::collections::BTreeMap;
 
-/// A closed chain of boundary edges that visits no vertex twice.
+/// A closed chain of boundary edges that visits no vertex twice; with [`LoopClass::OpenChain`] neither is
+/// promised.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundaryLoop {
     /// Position in [`BoundaryLoops::loops`].

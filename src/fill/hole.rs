@@ -66,7 +66,11 @@ impl Hole {
         let count = rim.len() as f64;
         let center = rim.iter().map(|&v| mesh.point(v)).sum::<Vec3>() / count;
         let scale = (outer.perimeter + islands.iter().map(|l| l.perimeter).sum::<f64>()) / count;
-        if !(scale > 0.0 && scale.is_finite()) {
+        if !scale.is_finite() {
+            let message = "the rim is too long for double precision";
+            return Err(Error::new(ErrorKind::Geometry, message));
+        }
+        if scale == 0.0 {
             return Err(Error::new(
                 ErrorKind::Geometry,
                 format!(

@@ -68,7 +68,10 @@ pub fn fill_holes(
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads)
         .build()
-        .map_err(|e| invalid(format!("cannot start {} threads: {e}", options.threads)))?;
+        .map_err(|e| {
+            let message = format!("cannot start {} threads: {e}", options.threads);
+            Error::new(ErrorKind::Limit, message)
+        })?;
     let start = Instant::now();
     let surface = Surface {
         points: mesh.points(),
@@ -90,9 +93,8 @@ pub fn fill_holes(
     let plan = |hole: &HoleLoops<'_>| {
         let start = Instant::now();
         let outcome = if meter.is_cancelled() {
-            let error = Error::new(ErrorKind::Cancelled, "stopped by the caller");
             Err(Failure {
-                error,
+                error: Error::cancelled(),
                 tried: Vec::new(),
             })
         } else {

@@ -59,7 +59,7 @@ pub struct HoleReport {
     pub reason: String,
     /// The method whose patch closes the hole.
     pub method: Option<Method>,
-    /// Methods tried before, in order.
+    /// The other methods tried, in order.
     pub tried: Vec<Attempt>,
     /// New vertices, as a range of indices into the filled mesh.
     pub new_vertices: Range<u32>,

@@ -7,7 +7,7 @@
 use super::hole::Hole;
 use super::method::Method;
 use super::options::FillOptions;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::fair::kharmonic::{Order, fair};
 use crate::fair::laplacian::Weights;
 use crate::math::sparse::SpdSolver;
@@ -25,7 +25,8 @@ const EAR_REMAINDER: usize = 64;
 const START_EAR_REMAINDER: usize = 16;
 const START_EXACT_LIMIT: usize = 24;
 
-/// Relaxations of the coarse and of the final patch.
+/// Relaxations of the coarse patch, which is only a start, and of the final one: a third hardly improves the
+/// angles.
 const COARSE_RELAXATIONS: usize = 0;
 const FINE_RELAXATIONS: usize = 2;
 
@@ -34,12 +35,7 @@ pub(crate) struct Staircase<'a> {
     hole: &'a Hole,
     options: &'a FillOptions,
     interrupted: &'a dyn Fn() -> bool,
-    refined: Option<Result<Refined>>,
-}
-
-#[derive(Clone)]
-struct Refined {
-    surface: PatchSurface,
+    refined: Option<Result<PatchSurface>>,
 }
 
 impl<'a> Staircase<'a> {
@@ -65,7 +61,7 @@ impl<'a> Staircase<'a> {
     /// The patch of `method` in the hole's coordinates.
     ///
     /// # Errors
-    /// Those of triangulation, refinement and fairing, and [`ErrorKind::Cancelled`].
+    /// Those of triangulation, refinement and fairing, and [`crate::ErrorKind::Cancelled`].
     pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
         let order = match method {
             Method::Flat => return self.triangulate(self.options.exact_limit, EAR_REMAINDER),
@@ -73,7 +69,7 @@ impl<'a> Staircase<'a> {
             Method::Auto | Method::FairC1 => Order::Two,
             Method::FairC2 => Order::Three,
         };
-        let Refined { mut surface, .. } = self.refined()?;
+        let mut surface = self.refined()?;
         let mut solver = SpdSolver::default();
         let around = &self.hole.surroundings;
         fair(
@@ -91,7 +87,7 @@ impl<'a> Staircase<'a> {
 
     fn check_interruption(&self) -> Result<()> {
         if (self.interrupted)() {
-            return Err(Error::new(ErrorKind::Cancelled, "stopped by the caller"));
+            return Err(Error::cancelled());
         }
         Ok(())
     }
@@ -127,7 +123,7 @@ impl<'a> Staircase<'a> {
         })
     }
 
-    fn refined(&mut self) -> Result<Refined> {
+    fn refined(&mut self) -> Result<PatchSurface> {
         if let Some(refined) = &self.refined {
             return refined.clone();
         }
@@ -151,7 +147,7 @@ impl<'a> Staircase<'a> {
                 *size /= COARSENING;
             }
             self.refine(&mut surface, &mut sizes, FINE_RELAXATIONS)?;
-            Ok(Refined { surface })
+            Ok(surface)
         });
         self.refined.insert(refined).clone()
     }

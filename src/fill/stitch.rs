@@ -1,6 +1,7 @@
 //! Appends planned patches to the mesh, one after the other, so that the result does not depend on the
 //! order in which they were planned.
 
+use super::method::Method;
 use super::options::FillOptions;
 use super::pipeline::HoleLoops;
 use super::plan::{Failure, Plan, Planner, chain};
@@ -39,7 +40,7 @@ pub(super) struct Outcome {
 }
 
 struct Filled {
-    method: super::method::Method,
+    method: Method,
     new_vertices: Range<u32>,
     new_triangles: Range<u32>,
     self_intersections: usize,
@@ -91,8 +92,13 @@ impl<'a> Stitcher<'a> {
         });
         if let Some(error) = conflict {
             let is_usable = with_patches > 0;
-            match self.replan(hole, &plan, &error) {
-                Ok((other, count))
+            let methods = self.methods_after(&plan, &error);
+            let without_conflict = plan.tried.len();
+            let replanned =
+                (!methods.is_empty()).then(|| self.replan(hole, &plan, &error, &methods));
+            match replanned {
+                None => {}
+                Some(Ok((other, count)))
                     if !is_usable
                         || count + other.self_intersections
                             < with_patches + plan.self_intersections =>
@@ -101,10 +107,25 @@ impl<'a> Stitcher<'a> {
                     self.replanned.push((index, plan_box(self.mesh, &other)));
                     plan = other;
                 }
-                Err(failure) if !is_usable => {
+                Some(Err(failure)) if !is_usable => {
                     return Outcome::failed(failure.error, failure.tried);
                 }
-                _ => {}
+                // The plan stands, and the report says what else was tried.
+                Some(Ok((other, count))) => {
+                    plan.tried = other.tried;
+                    plan.tried.remove(without_conflict);
+                    plan.tried.push(Attempt {
+                        method: other.method,
+                        reason: format!(
+                            "its patch has {} intersecting pairs of triangles, other patches included",
+                            count + other.self_intersections
+                        ),
+                    });
+                }
+                Some(Err(failure)) => {
+                    plan.tried = failure.tried;
+                    plan.tried.remove(without_conflict);
+                }
             }
         }
         plan.self_intersections += with_patches;
@@ -117,12 +138,25 @@ impl<'a> Stitcher<'a> {
         check_against_mesh(self.mesh, &plan.hole, &triangles).err()
     }
 
-    /// Plans the hole anew on the mesh as it is, without the method that did not fit.
+    /// The methods that are worth trying after a plan that does not fit for the reason `error`.
+    fn methods_after(&self, plan: &Plan, error: &Error) -> Vec<Method> {
+        // A new edge may block a chord: the same method can find another way. An intersection calls for
+        // another shape.
+        let is_blocked = error.kind() == ErrorKind::Topology;
+        chain(self.options)
+            .into_iter()
+            .skip_while(|&m| m != plan.method)
+            .skip(usize::from(!is_blocked))
+            .collect()
+    }
+
+    /// Plans the hole anew on the mesh as it is, by one of `methods`.
     fn replan(
         &self,
         hole: &HoleLoops<'_>,
         plan: &Plan,
         error: &Error,
+        methods: &[Method],
     ) -> Result<(Plan, usize), Failure> {
         let planner = Planner {
             mesh: self.mesh,
@@ -130,20 +164,12 @@ impl<'a> Stitcher<'a> {
             options: self.options,
             interrupted: self.interrupted,
         };
-        // A new edge may block a chord: the same method can find another way. An intersection calls for
-        // another shape.
-        let is_blocked = error.kind() == ErrorKind::Topology;
-        let methods: Vec<_> = chain(self.options)
-            .into_iter()
-            .skip_while(|&m| m != plan.method)
-            .skip(usize::from(!is_blocked))
-            .collect();
         let mut tried = plan.tried.clone();
         tried.push(Attempt {
             method: plan.method,
             reason: error.to_string(),
         });
-        let outcome = planner.plan(hole.outer, &hole.islands, &methods);
+        let outcome = planner.plan(hole.outer, &hole.islands, methods);
         let mut other = outcome.map_err(|mut failure| {
             tried.append(&mut failure.tried);
             Failure {
@@ -259,10 +285,8 @@ impl Outcome {
             report.self_intersections = filled.self_intersections;
             report.min_angle = Some(filled.min_angle);
             if filled.self_intersections > 0 {
-                report.reason = format!(
-                    "{} pairs of triangles intersect, whatever the method",
-                    filled.self_intersections
-                );
+                report.reason =
+                    format!("{} pairs of triangles intersect", filled.self_intersections);
             }
         }
     }

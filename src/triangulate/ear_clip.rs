@@ -13,7 +13,7 @@
 //! comes close to itself.
 
 use super::polygon::{ChordRules, FlatnessTest, HolePolygon};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::math::{Vec3, cross_normal, unit};
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
@@ -172,10 +172,7 @@ impl<'a> Clipper<'a> {
                 continue;
             }
             if left.is_multiple_of(EARS_PER_CHECK) && interrupted() {
-                return Err(Error::new(
-                    ErrorKind::Cancelled,
-                    "the triangulation was cancelled",
-                ));
+                return Err(Error::cancelled());
             }
             self.cut(entry.position);
             left -= 1;
@@ -358,6 +355,9 @@ mod tests {
         let rim = Rim::regular(10_000);
         let polygon = rim.polygon();
         let stopped = clip(&polygon, &ChordRules::new(&polygon), 3, &|| true);
-        assert_eq!(stopped.err().map(|e| e.kind()), Some(ErrorKind::Cancelled));
+        assert_eq!(
+            stopped.err().map(|e| e.kind()),
+            Some(crate::error::ErrorKind::Cancelled)
+        );
     }
 }

@@ -168,10 +168,7 @@ fn solve(
     let mut any_barred = false;
     for j in 1..len {
         if interrupted() {
-            return Err(Error::new(
-                ErrorKind::Cancelled,
-                "the triangulation was cancelled",
-            ));
+            return Err(Error::cancelled());
         }
         for i in (0..j).rev() {
             let row = table.cell(i, i + 1);

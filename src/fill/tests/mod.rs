@@ -147,7 +147,7 @@ impl Filled {
 
     /// Filled loops are closed, the others are open as before, and no other boundary came about.
     fn check_loops(&self) {
-        let mut open = Vec::new();
+        let mut open: Vec<u32> = Vec::new();
         for (l, hole) in self.boundary.loops.iter().zip(&self.report.holes) {
             if hole.status != HoleStatus::Filled {
                 open.extend(&l.halfedges);

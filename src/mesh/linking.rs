@@ -125,8 +125,15 @@ fn halfedge_of(key: Key) -> u32 {
     key - key / 4 - 1
 }
 
-/// The corner opposite to the halfedge of `key`, by the last two bits of the key.
-const OPPOSITE: [usize; 4] = [0, 2, 0, 1];
+/// The exclusive or of the ends of the halfedge of `key` in triangle `t`.
+fn ends_of(t: &[u32; 3], key: Key) -> u32 {
+    let [a, b, c] = *t;
+    match key % 4 {
+        1 => a ^ b,
+        2 => b ^ c,
+        _ => c ^ a,
+    }
+}
 
 /// The edges whose lower end lies in a range of vertices.
 struct Part<'a> {
@@ -167,8 +174,11 @@ impl Part<'_> {
     }
 
     /// Looks a halfedge up in the list of its lower end; `t` is its triangle from its origin on.
-    #[inline]
+    ///
+    /// Always inlined: a call costs as much as the few steps through the list.
+    #[inline(always)]
     fn add(&mut self, t: [u32; 3], key: Key) {
+        let ends = t[0] ^ t[1];
         let place = t[0].min(t[1]).wrapping_sub(self.first_vertex) as usize;
         let Some(&head) = self.heads.get(place) else {
             return;
@@ -179,24 +189,13 @@ impl Part<'_> {
             let Some(other) = self.triangles.get(edge as usize / 4) else {
                 return self.set_aside(t, [key]);
             };
-            let opposite = other[OPPOSITE[edge as usize % 4]];
             let slot = self.slot(edge);
-            let is_joined = slot > edge;
             // Both edges have the same lower end: the exclusive or tells the other ends apart.
-            if other[0] ^ other[1] ^ other[2] ^ opposite == t[0] ^ t[1] {
-                if is_joined {
-                    return self.set_aside(t, [edge, slot, key]);
-                }
-                self.set_slot(key, slot);
-                self.set_slot(edge, key);
-                let is_inconsistent = other[edge as usize % 4 - 1] == t[0];
-                if is_inconsistent || opposite == t[2] {
-                    self.note(is_inconsistent, opposite == t[2], edge, key);
-                }
-                return;
+            if ends_of(other, edge) == ends {
+                return self.join(t, key, other, edge, slot);
             }
             length += 1;
-            edge = if is_joined { self.slot(slot) } else { slot };
+            edge = if slot > edge { self.slot(slot) } else { slot };
         }
         if length < LONGEST_LIST {
             self.set_slot(key, head);
@@ -204,6 +203,22 @@ impl Part<'_> {
         } else {
             self.take_apart(place);
             self.set_aside(t, [key]);
+        }
+    }
+
+    /// Joins a halfedge to the `edge` of triangle `other`.
+    #[inline(always)]
+    fn join(&mut self, t: [u32; 3], key: Key, other: &[u32; 3], edge: Key, slot: u32) {
+        if slot > edge {
+            return self.set_aside(t, [edge, slot, key]);
+        }
+        self.set_slot(key, slot);
+        self.set_slot(edge, key);
+        let is_inconsistent = other[edge as usize % 4 - 1] == t[0];
+        // With the same ends, the exclusive or of all vertices tells the third ones apart.
+        let is_duplicate = other[0] ^ other[1] ^ other[2] == t[0] ^ t[1] ^ t[2];
+        if is_inconsistent | is_duplicate {
+            self.note(is_inconsistent, is_duplicate, edge, key);
         }
     }
 

@@ -191,13 +191,13 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(LONG) })]
 
     #[test]
-    #[ignore = "takes minutes"]
+    #[ignore = "a longer run of a property that every test run checks on fewer meshes"]
     fn many_soups_of_triangles_do_no_harm(arrays in soup()) {
         check_every_method(&arrays);
     }
 
     #[test]
-    #[ignore = "takes minutes"]
+    #[ignore = "a longer run of a property that every test run checks on fewer meshes"]
     fn many_battered_spheres_do_no_harm(arrays in battered()) {
         check_every_method(&arrays);
     }

@@ -1,4 +1,4 @@
-//! The piece of surface that closes one hole.
+//! One hole as plain data, and the piece of surface that closes it: what every method takes and returns.
 
 use crate::math::Vec3;
 
@@ -15,4 +15,44 @@ pub(crate) struct PatchSurface {
     pub(crate) points: Vec<Vec3>,
     /// Indices into `points`.
     pub(crate) triangles: Vec<[u32; 3]>,
+}
+
+/// The known triangles next to a rim, through which methods read the surface round the hole.
+///
+/// Vertices below the rim count are those of the rim; the others index `points` after subtracting it.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Surroundings {
+    /// Positions of the vertices that are not on the rim.
+    pub(crate) points: Vec<Vec3>,
+    /// Ring of each of `points`, from 1.
+    pub(crate) levels: Vec<u32>,
+    /// Triangles.
+    pub(crate) triangles: Vec<[u32; 3]>,
+}
+
+/// One hole in coordinates of its own: the origin is the centroid of the rim, the unit is the mean length of
+/// the rim's edges, so that neither the position nor the scale of the model enters the computation.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct HoleShape {
+    /// Positions of the rim vertices, islands included.
+    pub(crate) points: Vec<Vec3>,
+    /// The closed polygon that bounds the patch, in the patch's orientation, as indices into `points`. With
+    /// islands some rim vertices occur in it twice.
+    pub(crate) polygon: Vec<u32>,
+    /// Unit normal of the known triangle at each polygon edge; `None` along the bridges to islands, and
+    /// beside a triangle without area.
+    pub(crate) outside_normals: Vec<Option<Vec3>>,
+    /// Mean length of the known edges at each rim vertex.
+    pub(crate) edge_lengths: Vec<f64>,
+    /// The known triangles round the rim.
+    pub(crate) surroundings: Surroundings,
+    /// Sorted pairs (smaller first) of rim vertices that an edge of the mesh already joins.
+    pub(crate) joined: Vec<(u32, u32)>,
+}
+
+impl HoleShape {
+    /// Whether an edge of the mesh already joins two rim vertices.
+    pub(crate) fn is_joined(&self, a: u32, b: u32) -> bool {
+        self.joined.binary_search(&(a.min(b), a.max(b))).is_ok()
+    }
 }

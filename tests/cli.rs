@@ -1032,7 +1032,7 @@ fn help_names_every_method_and_parameter_with_its_default() {
         assert!(run.stdout.contains(method.summary()), "{method}");
     }
     let defaults = holefill::FillOptions::default();
-    for parameter in holefill::FillOptions::PARAMETERS {
+    for parameter in holefill::FillOptions::parameters() {
         for text in [
             parameter.name,
             parameter.help,

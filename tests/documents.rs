@@ -53,7 +53,7 @@ fn every_parameter_is_documented_with_its_default() {
         .iter()
         .map(|page| fs::read_to_string(page).unwrap())
         .collect();
-    for parameter in FillOptions::PARAMETERS {
+    for parameter in FillOptions::parameters() {
         let default = parameter.value(&FillOptions::default());
         let row = format!("| `{}` | `{default}` |", parameter.name);
         assert!(pages.contains(&row), "{row}");

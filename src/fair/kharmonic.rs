@@ -18,11 +18,11 @@
 //!
 //! Not guaranteed: that the result has no self-intersection, nor that it stays near the rim.
 
-use super::laplacian::{Domain, Surroundings, Weights};
+use super::laplacian::{Domain, Weights};
 use crate::error::Result;
 use crate::math::Vec3;
 use crate::math::sparse::{SpdSolver, SymmetricMatrix};
-use crate::patch::PatchSurface;
+use crate::patch::{PatchSurface, Surroundings};
 
 /// Order of the energy, which is the number of rings of triangles that it reads plus one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -5,26 +5,13 @@
 //! "An intuitive framework for real-time freeform modeling", ACM TOG 23(3), 2004.
 
 use crate::math::{Vec3, cross_normal};
-use crate::patch::PatchSurface;
+use crate::patch::{PatchSurface, Surroundings};
 
 /// Cotangents are limited to those of an angle of about half a degree: beyond it they carry more rounding
 /// than shape.
 const LARGEST_COTANGENT: f64 = 100.0;
 /// Vertex areas are at least this share of the mean one, so that a sliver does not outweigh everything.
 const SMALLEST_AREA_SHARE: f64 = 1e-3;
-
-/// The known triangles next to a rim, with which fairing reads the surface round the hole.
-///
-/// Vertices below the rim count are those of the rim; the others index `points` after subtracting it.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Surroundings {
-    /// Positions of the vertices that are not on the rim.
-    pub(crate) points: Vec<Vec3>,
-    /// Ring of each of `points`, from 1.
-    pub(crate) levels: Vec<u32>,
-    /// Triangles.
-    pub(crate) triangles: Vec<[u32; 3]>,
-}
 
 /// Edge weights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

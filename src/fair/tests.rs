@@ -1,11 +1,11 @@
 //! What fairing must do: reproduce what is flat, minimise its energy, meet the rim.
 
 use super::kharmonic::{Order, extend_from_rim, fair};
-use super::laplacian::{Domain, Surroundings, Weights};
+use super::laplacian::{Domain, Weights};
 use crate::fixtures::{self, Arrays, Noise};
 use crate::math::Vec3;
 use crate::math::sparse::SpdSolver;
-use crate::patch::PatchSurface;
+use crate::patch::{PatchSurface, Surroundings};
 
 const ORDERS: [Order; 3] = [Order::One, Order::Two, Order::Three];
 const WEIGHTS: [Weights; 2] = [Weights::Uniform, Weights::Cotangent];

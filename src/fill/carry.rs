@@ -193,9 +193,9 @@ fn nearest_rim_faces(hole: &Hole, surface: &PatchSurface) -> Vec<u32> {
     };
     let mut source = vec![None; surface.triangles.len()];
     let mut queue = Vec::with_capacity(surface.triangles.len());
-    let m = hole.polygon.len();
+    let m = hole.shape.polygon.len();
     for i in 0..m {
-        let face = face_at(hole.polygon[i], hole.polygon[(i + 1) % m]);
+        let face = face_at(hole.shape.polygon[i], hole.shape.polygon[(i + 1) % m]);
         if let (Some(face), Some(outside)) = (face, hole.outside_faces[i])
             && source[face as usize].is_none()
         {

@@ -2,32 +2,20 @@
 
 use crate::boundary::loops::BoundaryLoop;
 use crate::error::{Error, ErrorKind, Result};
-use crate::fair::laplacian::Surroundings;
 use crate::math::{Vec3, cross_normal, unit};
 use crate::mesh::connectivity::target;
 use crate::mesh::rings::collect_rings;
 use crate::mesh::trimesh::TriMesh;
+use crate::patch::{HoleShape, Surroundings};
 
-/// A hole in coordinates of its own: the origin is the centroid of the rim, the unit is the mean length of
-/// the rim's edges, so that neither the position nor the scale of the model enters the computation.
+/// A hole, its place in the mesh, and its shape in coordinates of its own.
 pub(crate) struct Hole {
     /// Rim vertices in the mesh; rim vertex `i` of a patch is `rim[i]`.
     pub(crate) rim: Vec<u32>,
-    /// The closed polygon that bounds the patch, in the patch's orientation, as indices into `rim`. With
-    /// islands some rim vertices occur in it twice.
-    pub(crate) polygon: Vec<u32>,
-    /// Unit normal of the known triangle at each polygon edge; `None` along the bridges to islands.
-    pub(crate) outside_normals: Vec<Option<Vec3>>,
-    /// Triangle of the mesh at each polygon edge.
+    /// Triangle of the mesh at each edge of the shape's polygon; `None` along the bridges to islands.
     pub(crate) outside_faces: Vec<Option<u32>>,
-    /// Rim positions in the hole's coordinates.
-    pub(crate) points: Vec<Vec3>,
-    /// Mean length of the known edges at each rim vertex, in the hole's coordinates.
-    pub(crate) edge_lengths: Vec<f64>,
-    /// The known triangles round the rim.
-    pub(crate) surroundings: Surroundings,
-    /// Sorted pairs of rim vertices that an edge of the mesh already joins.
-    joined: Vec<(u32, u32)>,
+    /// What the methods see.
+    pub(crate) shape: HoleShape,
     center: Vec3,
     scale: f64,
 }
@@ -120,21 +108,18 @@ impl Hole {
         let joined = joined_rim_vertices(mesh, &rim, &rim_index);
         Ok(Self {
             rim,
-            polygon: polygon_indices,
-            outside_normals,
             outside_faces,
-            points,
-            edge_lengths,
-            surroundings,
-            joined,
+            shape: HoleShape {
+                points,
+                polygon: polygon_indices,
+                outside_normals,
+                edge_lengths,
+                surroundings,
+                joined,
+            },
             center,
             scale,
         })
-    }
-
-    /// Whether an edge of the mesh already joins two rim vertices.
-    pub(crate) fn is_joined(&self, a: u32, b: u32) -> bool {
-        self.joined.binary_search(&(a.min(b), a.max(b))).is_ok()
     }
 
     /// The position in the mesh of a point in the hole's coordinates.

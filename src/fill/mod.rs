@@ -3,12 +3,12 @@
 mod carry;
 mod hole;
 pub(crate) mod method;
+mod methods;
 pub(crate) mod options;
 pub(crate) mod pipeline;
 mod plan;
 pub(crate) mod progress;
 pub(crate) mod report;
-mod staircase;
 mod stitch;
 mod verify;
 

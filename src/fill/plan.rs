@@ -4,9 +4,10 @@
 use super::carry::{CarriedAttributes, carry};
 use super::hole::Hole;
 use super::method::Method;
+use super::methods::PatchMaker;
 use super::options::FillOptions;
 use super::report::Attempt;
-use super::staircase::Staircase;
+
 use super::verify::check_patch;
 use crate::boundary::loops::BoundaryLoop;
 use crate::error::{Error, ErrorKind, Result};
@@ -88,16 +89,16 @@ impl Planner<'_> {
         methods: &[Method],
     ) -> std::result::Result<Plan, Failure> {
         let mut tried = Vec::new();
-        let rings = methods.first().map_or(1, |&m| Staircase::ring_count(m));
+        let rings = methods.first().map_or(1, |&m| PatchMaker::ring_count(m));
         let hole = match Hole::new(self.mesh, outer, islands, rings) {
             Ok(hole) => hole,
             Err(error) => return Err(Failure { error, tried }),
         };
-        let mut staircase = Staircase::new(&hole, self.options, self.interrupted);
+        let mut maker = PatchMaker::new(&hole.shape, self.options, self.interrupted);
         let mut best: Option<(Candidate, usize)> = None;
         let mut last_error = None;
         for &method in methods {
-            let reason = match self.candidate(&hole, &mut staircase, method) {
+            let reason = match self.candidate(&hole, &mut maker, method) {
                 Ok(candidate) => {
                     let found = candidate.intersections.total();
                     let is_better = best
@@ -136,10 +137,10 @@ impl Planner<'_> {
     fn candidate(
         &self,
         hole: &Hole,
-        staircase: &mut Staircase<'_>,
+        maker: &mut PatchMaker<'_>,
         method: Method,
     ) -> Result<Candidate> {
-        let surface = staircase.patch(method)?;
+        let surface = maker.patch(method)?;
         check_patch(hole, &surface)?;
         let points: Vec<Vec3> = surface.points[surface.rim_count..]
             .iter()

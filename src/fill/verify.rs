@@ -33,16 +33,16 @@ pub(crate) fn check_patch(hole: &Hole, surface: &PatchSurface) -> Result<()> {
     {
         return Err(geometry(format!("new vertex {v} is not finite")));
     }
-    let rim = Aabb::around(&hole.points);
+    let rim = Aabb::around(&hole.shape.points);
     let limit = FARTHEST * (rim.hi - rim.lo).norm();
     let middle = (rim.hi + rim.lo) / 2.0;
     if surface.points.iter().any(|p| (p - middle).norm() > limit) {
         return Err(geometry("the patch runs away from the hole".to_owned()));
     }
-    let m = hole.polygon.len();
+    let m = hole.shape.polygon.len();
     let mut rim_edges: Vec<(u32, u32)> = (0..m)
         .filter(|&i| hole.outside_faces[i].is_some())
-        .map(|i| (hole.polygon[i], hole.polygon[(i + 1) % m]))
+        .map(|i| (hole.shape.polygon[i], hole.shape.polygon[(i + 1) % m]))
         .collect();
     rim_edges.sort_unstable();
     let mut edges = Vec::with_capacity(3 * surface.triangles.len());
@@ -73,7 +73,7 @@ pub(crate) fn check_patch(hole: &Hole, surface: &PatchSurface) -> Result<()> {
         let is_rim = rim_edges.binary_search(&(a, b)).is_ok();
         let is_right = match same {
             [_] => is_rim,
-            [e, f] => e != f && !is_rim && !hole.is_joined(a, b),
+            [e, f] => e != f && !is_rim && !hole.shape.is_joined(a, b),
             _ => false,
         };
         if !is_right {
@@ -94,7 +94,7 @@ pub(crate) fn check_patch(hole: &Hole, surface: &PatchSurface) -> Result<()> {
     }
     // One face over the polygon, whose bridges are passed twice.
     let bridges = (m - rim_edges.len()) / 2;
-    let expected = (hole.points.len() + 1) as i64 - (rim_edges.len() + bridges) as i64;
+    let expected = (hole.shape.points.len() + 1) as i64 - (rim_edges.len() + bridges) as i64;
     let found = (surface.points.len() + surface.triangles.len()) as i64 - edge_count;
     if found != expected {
         return Err(topology(format!(
@@ -129,8 +129,8 @@ pub(crate) fn check_against_mesh(
     hole: &Hole,
     triangles: &[[u32; 3]],
 ) -> Result<()> {
-    let m = hole.polygon.len();
-    let at = |i: usize| hole.rim[hole.polygon[i % m] as usize];
+    let m = hole.shape.polygon.len();
+    let at = |i: usize| hole.rim[hole.shape.polygon[i % m] as usize];
     let mut rim_edges = Vec::with_capacity(m);
     for i in (0..m).filter(|&i| hole.outside_faces[i].is_some()) {
         let (a, b) = (at(i), at(i + 1));

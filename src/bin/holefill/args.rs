@@ -196,7 +196,7 @@ fn methods_and_parameters() -> String {
     }
     text.push_str("\nParameters for --set:\n");
     let defaults = FillOptions::default();
-    for parameter in FillOptions::PARAMETERS {
+    for parameter in FillOptions::parameters() {
         let Parameter {
             name,
             help,

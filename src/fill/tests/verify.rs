@@ -5,7 +5,7 @@ use crate::boundary::loops::BoundaryLoops;
 use crate::error::{ErrorKind, Result};
 use crate::fill::hole::Hole;
 use crate::fill::method::Method;
-use crate::fill::staircase::Staircase;
+use crate::fill::methods::PatchMaker;
 use crate::fill::verify::{check_against_mesh, check_patch};
 use crate::fixtures::{self, Arrays};
 use crate::math::Vec3;
@@ -18,7 +18,7 @@ fn hole_and_patch(arrays: &Arrays, method: Method) -> (TriMesh, Hole, PatchSurfa
     let boundary = BoundaryLoops::find(&mesh);
     let hole = Hole::new(&mesh, &boundary.loops[0], &[], 2).unwrap();
     let options = with_method(method);
-    let surface = Staircase::new(&hole, &options, &|| false)
+    let surface = PatchMaker::new(&hole.shape, &options, &|| false)
         .patch(method)
         .unwrap();
     (mesh, hole, surface)
@@ -136,7 +136,7 @@ fn an_edge_that_the_mesh_has_already_is_caught() {
     let at = |v: u32| hole.rim.iter().position(|&r| r == v).unwrap() as u32;
     let patch = |triangles: [[u32; 3]; 2]| PatchSurface {
         rim_count: 4,
-        points: hole.points.clone(),
+        points: hole.shape.points.clone(),
         triangles: triangles.map(|t| t.map(at)).to_vec(),
     };
     let free = patch([[0, 2, 3], [0, 3, 1]]);
@@ -177,17 +177,17 @@ fn the_coordinates_of_a_hole_are_those_of_the_mesh_moved_and_scaled() {
     let boundary = BoundaryLoops::find(&mesh);
     let hole = Hole::new(&mesh, &boundary.loops[0], &[], 2).unwrap();
     let n = hole.rim.len();
-    assert!(hole.points.iter().sum::<Vec3>().norm() < 1e-6);
+    assert!(hole.shape.points.iter().sum::<Vec3>().norm() < 1e-6);
     let perimeter: f64 = (0..n)
-        .map(|i| (hole.points[(i + 1) % n] - hole.points[i]).norm())
+        .map(|i| (hole.shape.points[(i + 1) % n] - hole.shape.points[i]).norm())
         .sum();
     assert!((perimeter / n as f64 - 1.0).abs() < 1e-9);
-    for (p, &v) in hole.points.iter().zip(&hole.rim) {
+    for (p, &v) in hole.shape.points.iter().zip(&hole.rim) {
         assert!((Vec3::from(hole.to_mesh(p)) - mesh.point(v)).norm() < 1e-8);
     }
     // The polygon runs against the loop.
     let l = &boundary.loops[0].vertices;
-    let at = hole.polygon.iter().map(|&i| hole.rim[i as usize]);
+    let at = hole.shape.polygon.iter().map(|&i| hole.rim[i as usize]);
     let expected = (0..n).map(|i| l[(n - i) % n]);
     assert!(at.eq(expected));
 }

@@ -1,11 +1,17 @@
 //! Options of a fill, and every parameter by its documented name.
 
+mod parameter;
+mod staircase;
+
+pub use parameter::Parameter;
+
 use super::method::Method;
 use crate::error::{Error, ErrorKind, Result};
+use parameter::{switch, switch_name};
 
 /// How holes are filled.
 ///
-/// All parameters can also be reached by name with [`FillOptions::set`]; [`FillOptions::PARAMETERS`] lists
+/// All parameters can also be reached by name with [`FillOptions::set`]; [`FillOptions::parameters`] lists
 /// them with their defaults and ranges.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -51,109 +57,31 @@ impl Default for FillOptions {
     }
 }
 
-/// A parameter that can be set by name.
-#[derive(Clone, Copy, Debug)]
-pub struct Parameter {
-    /// The name, such as `refine.density`.
-    pub name: &'static str,
-    /// What it does, with its unit, in one line.
-    pub help: &'static str,
-    /// The values that are allowed, in words.
-    pub allowed: &'static str,
-    get: fn(&FillOptions) -> String,
-    set: fn(&mut FillOptions, &str) -> Option<()>,
-}
+/// The parameters, by the method or stage that they belong to.
+const GROUPS: &[&[Parameter]] = &[FILL, staircase::PARAMETERS];
 
-impl Parameter {
-    /// The value that `options` has, as [`FillOptions::set`] would take it.
-    #[must_use]
-    pub fn value(&self, options: &FillOptions) -> String {
-        (self.get)(options)
-    }
-
-    fn refusal(&self, value: &str) -> Error {
-        Error::new(
-            ErrorKind::InvalidInput,
-            format!(
-                "{} cannot be '{value}': it takes {}",
-                self.name, self.allowed
-            ),
-        )
-    }
-}
-
-fn number<T: std::str::FromStr + PartialOrd>(value: &str, low: T, high: T) -> Option<T> {
-    value.parse().ok().filter(|v| *v >= low && *v <= high)
-}
-
-fn switch(value: &str) -> Option<bool> {
-    match value {
-        "on" => Some(true),
-        "off" => Some(false),
-        _ => None,
-    }
-}
-
-fn switch_name(value: bool) -> String {
-    if value { "on" } else { "off" }.to_owned()
-}
+const FILL: &[Parameter] = &[
+    Parameter {
+        name: "fill.fallback",
+        help: "try the next simpler method when a patch cannot be used",
+        allowed: "on or off",
+        get: |o| switch_name(o.fallback),
+        set: |o, v| switch(v).map(|v| o.fallback = v),
+    },
+    Parameter {
+        name: "fill.join-islands",
+        help: "join a loose sheet inside a hole to the patch of that hole",
+        allowed: "on or off",
+        get: |o| switch_name(o.join_islands),
+        set: |o, v| switch(v).map(|v| o.join_islands = v),
+    },
+];
 
 impl FillOptions {
-    /// Every parameter that [`FillOptions::set`] knows.
-    pub const PARAMETERS: &'static [Parameter] = &[
-        Parameter {
-            name: "fill.fallback",
-            help: "try the next simpler method when a patch cannot be used",
-            allowed: "on or off",
-            get: |o| switch_name(o.fallback),
-            set: |o, v| switch(v).map(|v| o.fallback = v),
-        },
-        Parameter {
-            name: "fill.join-islands",
-            help: "join a loose sheet inside a hole to the patch of that hole",
-            allowed: "on or off",
-            get: |o| switch_name(o.join_islands),
-            set: |o, v| switch(v).map(|v| o.join_islands = v),
-        },
-        Parameter {
-            name: "flat.exact-limit",
-            help: "largest rim, in edges, searched exhaustively; the cost grows with its cube",
-            allowed: "an integer from 3 to 2048",
-            get: |o| o.exact_limit.to_string(),
-            set: |o, v| number(v, 3, 2048).map(|v| o.exact_limit = v),
-        },
-        Parameter {
-            name: "refine.density",
-            help: "target edge length of new triangles over that of the rim",
-            allowed: "a number from 0.1 to 100",
-            get: |o| o.density.to_string(),
-            set: |o, v| number(v, 0.1, 100.0).map(|v| o.density = v),
-        },
-        Parameter {
-            name: "refine.grading",
-            help: "growth of the target edge length per unit of distance from the rim",
-            allowed: "auto, or a number from 0 to 1",
-            get: |o| {
-                o.grading
-                    .map_or_else(|| "auto".to_owned(), |g| g.to_string())
-            },
-            set: |o, v| {
-                o.grading = if v == "auto" {
-                    None
-                } else {
-                    Some(number(v, 0.0, 1.0)?)
-                };
-                Some(())
-            },
-        },
-        Parameter {
-            name: "refine.max-vertices",
-            help: "largest number of new vertices in one hole",
-            allowed: "an integer from 0 to 1000000000",
-            get: |o| o.max_new_vertices.to_string(),
-            set: |o, v| number(v, 0, 1_000_000_000).map(|v| o.max_new_vertices = v),
-        },
-    ];
+    /// Every parameter that [`FillOptions::set`] knows, each method's together.
+    pub fn parameters() -> impl Iterator<Item = &'static Parameter> {
+        GROUPS.iter().copied().flatten()
+    }
 
     /// Sets the parameter `name` to `value`.
     ///
@@ -161,8 +89,8 @@ impl FillOptions {
     /// [`ErrorKind::InvalidInput`] for an unknown name (the message lists the known ones) or a value that
     /// is not allowed (the message says which are). The options are then unchanged.
     pub fn set(&mut self, name: &str, value: &str) -> Result<()> {
-        let Some(parameter) = Self::PARAMETERS.iter().find(|p| p.name == name) else {
-            let names: Vec<&str> = Self::PARAMETERS.iter().map(|p| p.name).collect();
+        let Some(parameter) = Self::parameters().find(|p| p.name == name) else {
+            let names: Vec<&str> = Self::parameters().map(|p| p.name).collect();
             return Err(Error::new(
                 ErrorKind::InvalidInput,
                 format!(
@@ -179,7 +107,7 @@ impl FillOptions {
     /// # Errors
     /// [`ErrorKind::InvalidInput`] for the first one that is not, as [`FillOptions::set`] would say it.
     pub(crate) fn check(&self) -> Result<()> {
-        for parameter in Self::PARAMETERS {
+        for parameter in Self::parameters() {
             let value = parameter.value(self);
             if (parameter.set)(&mut self.clone(), &value).is_none() {
                 return Err(parameter.refusal(&value));
@@ -195,7 +123,7 @@ mod tests {
 
     #[test]
     fn every_parameter_takes_its_own_default_back() {
-        for parameter in FillOptions::PARAMETERS {
+        for parameter in FillOptions::parameters() {
             let mut options = FillOptions::default();
             let value = parameter.value(&options);
             options.set(parameter.name, &value).unwrap();
@@ -209,7 +137,7 @@ mod tests {
             .set("refine.densty", "1")
             .unwrap_err();
         assert_eq!(error.kind(), ErrorKind::InvalidInput);
-        for parameter in FillOptions::PARAMETERS {
+        for parameter in FillOptions::parameters() {
             assert!(error.message().contains(parameter.name), "{error}");
         }
     }

@@ -4,14 +4,13 @@
 //! P. Liepa, "Filling holes in meshes", SGP 2003. Unlike there, the patch is refined again while it takes
 //! shape, so that its triangles are as regular on the final surface as they were on the first one.
 
-use super::hole::Hole;
-use super::method::Method;
-use super::options::FillOptions;
 use crate::error::{Error, Result};
 use crate::fair::kharmonic::{Order, fair};
 use crate::fair::laplacian::Weights;
+use crate::fill::method::Method;
+use crate::fill::options::FillOptions;
 use crate::math::sparse::SpdSolver;
-use crate::patch::PatchSurface;
+use crate::patch::{HoleShape, PatchSurface};
 use crate::refine::{RefineOptions, grading, refine, rim_sizes};
 use crate::triangulate::{HolePolygon, TriangulationOptions, triangulate};
 
@@ -32,7 +31,7 @@ const FINE_RELAXATIONS: usize = 2;
 
 /// Builds patches for one hole; the steps that several methods share are done once.
 pub(crate) struct Staircase<'a> {
-    hole: &'a Hole,
+    hole: &'a HoleShape,
     options: &'a FillOptions,
     interrupted: &'a dyn Fn() -> bool,
     refined: Option<Result<PatchSurface>>,
@@ -41,7 +40,7 @@ pub(crate) struct Staircase<'a> {
 impl<'a> Staircase<'a> {
     /// Nothing is computed yet. `interrupted` is asked from time to time; true stops the work.
     pub(crate) fn new(
-        hole: &'a Hole,
+        hole: &'a HoleShape,
         options: &'a FillOptions,
         interrupted: &'a dyn Fn() -> bool,
     ) -> Self {
@@ -51,11 +50,6 @@ impl<'a> Staircase<'a> {
             interrupted,
             refined: None,
         }
-    }
-
-    /// Rings of triangles round the hole that `method` and the simpler ones read.
-    pub(crate) fn ring_count(method: Method) -> u32 {
-        if method == Method::FairC2 { 2 } else { 1 }
     }
 
     /// The patch of `method` in the hole's coordinates.
@@ -117,7 +111,7 @@ impl<'a> Staircase<'a> {
             .iter()
             .map(|t| t.map(|position| at(position as usize)));
         Ok(PatchSurface {
-            rim_count: hole.rim.len(),
+            rim_count: hole.points.len(),
             points: hole.points.clone(),
             triangles: triangles.collect(),
         })

@@ -1,0 +1,40 @@
+//! The methods: each makes a patch from the shape of a hole, whatever happens to the patch afterwards.
+
+mod staircase;
+
+use super::method::Method;
+use super::options::FillOptions;
+use crate::error::Result;
+use crate::patch::{HoleShape, PatchSurface};
+use staircase::Staircase;
+
+/// Makes patches for one hole by one method after the other; what several methods share is done once.
+pub(crate) struct PatchMaker<'a> {
+    staircase: Staircase<'a>,
+}
+
+impl<'a> PatchMaker<'a> {
+    /// Nothing is computed yet. `interrupted` is asked from time to time; true stops the work.
+    pub(crate) fn new(
+        hole: &'a HoleShape,
+        options: &'a FillOptions,
+        interrupted: &'a dyn Fn() -> bool,
+    ) -> Self {
+        Self {
+            staircase: Staircase::new(hole, options, interrupted),
+        }
+    }
+
+    /// Rings of triangles round the hole that `method` and those it falls back to read.
+    pub(crate) fn ring_count(method: Method) -> u32 {
+        if method == Method::FairC2 { 2 } else { 1 }
+    }
+
+    /// The patch of `method` in the hole's coordinates. It is not verified yet.
+    ///
+    /// # Errors
+    /// Those of the method, and [`crate::ErrorKind::Cancelled`].
+    pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
+        self.staircase.patch(method)
+    }
+}

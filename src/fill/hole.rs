@@ -9,6 +9,7 @@ use crate::mesh::trimesh::TriMesh;
 use crate::patch::{HoleShape, Surroundings};
 
 /// A hole, its place in the mesh, and its shape in coordinates of its own.
+#[derive(Clone)]
 pub(crate) struct Hole {
     /// Rim vertices in the mesh; rim vertex `i` of a patch is `rim[i]`.
     pub(crate) rim: Vec<u32>,
@@ -16,8 +17,10 @@ pub(crate) struct Hole {
     pub(crate) outside_faces: Vec<Option<u32>>,
     /// What the methods see.
     pub(crate) shape: HoleShape,
-    center: Vec3,
-    scale: f64,
+    pub(super) center: Vec3,
+    pub(super) scale: f64,
+    /// False for a polyline: there are no triangles along its rim.
+    pub(super) is_in_mesh: bool,
 }
 
 impl Hole {
@@ -119,6 +122,7 @@ impl Hole {
             },
             center,
             scale,
+            is_in_mesh: true,
         })
     }
 

@@ -435,8 +435,8 @@ typedef struct HolefillProgress {
  * Told how far the work has come: after each hole, and within a hole about every 10 ms while the algorithms can be
  * stopped. A value other than 0 stops the call with `HOLEFILL_STATUS_CANCELLED`.
  *
- * It is called during the call that it was given to and never after it, one call at a time, from any thread of the
- * library; with `threads` = 1 only from the thread that made the call. It may call the library; on the mesh
+ * It is called during the call that it was given to and never after it, one call at a time, from the thread that made
+ * the call or any thread of the library. It may call the library; on the mesh
  * that is being filled every call returns `HOLEFILL_STATUS_BUSY`, on one that is being planned those that change it. It
  * must return: an exception or `longjmp` must not leave it. (holefill.hpp catches what a C++ function throws, stops
  * the call, and throws it again after the call has returned.)

@@ -3,9 +3,10 @@
 //! One tree for the mesh as it was, and trees for what was appended since. Each of those is larger than the one
 //! after it, so that there are few: O(log k) for k appended triangles, each of which is indexed O(log k) times.
 
+use crate::error::Result;
 use crate::mesh::trimesh::TriMesh;
 use crate::quality::Surface;
-use crate::quality::self_intersection::{AppendedPatch, SelfIntersections, count};
+use crate::quality::self_intersection::{AppendedPatch, SelfIntersections, count_unless};
 use crate::quality::spatial::FaceIndex;
 use std::ops::Range;
 
@@ -23,11 +24,31 @@ pub(crate) struct MeshIndex {
 }
 
 impl MeshIndex {
+    /// Indexes all triangles, on the current thread pool, unless `interrupted` says to stop.
+    ///
+    /// # Errors
+    /// `Cancelled` when it does.
+    pub(crate) fn build_unless(
+        mesh: &TriMesh,
+        interrupted: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Self> {
+        let count = mesh.triangles().len();
+        Ok(Self::around(
+            FaceIndex::build_unless(surface(mesh, 0..count), interrupted)?,
+            count,
+        ))
+    }
+
     /// Indexes all triangles, on the current thread pool.
     pub(crate) fn build(mesh: &TriMesh) -> Self {
+        let count = mesh.triangles().len();
+        Self::around(build(mesh, 0..count), count)
+    }
+
+    fn around(base: FaceIndex, base_count: usize) -> Self {
         Self {
-            base: build(mesh, 0..mesh.triangles().len()),
-            base_count: mesh.triangles().len(),
+            base,
+            base_count,
             later: Vec::new(),
         }
     }
@@ -62,16 +83,22 @@ impl MeshIndex {
     }
 
     /// The improper intersections of a patch with itself and with the indexed triangles of `mesh`.
+    ///
+    /// # Errors
+    /// `Cancelled` when `interrupted` says to stop.
     pub(crate) fn intersections(
         &self,
         mesh: &TriMesh,
         patch: AppendedPatch<'_>,
-    ) -> SelfIntersections {
-        let mut found = count(surface(mesh, 0..self.base_count), &self.base, patch);
+        interrupted: &(dyn Fn() -> bool + Sync),
+    ) -> Result<SelfIntersections> {
+        let base = surface(mesh, 0..self.base_count);
+        let mut found = count_unless(base, &self.base, patch, interrupted)?;
         for (range, tree) in &self.later {
-            found.with_mesh += count(surface(mesh, range.clone()), tree, patch).with_mesh;
+            let part = surface(mesh, range.clone());
+            found.with_mesh += count_unless(part, tree, patch, interrupted)?.with_mesh;
         }
-        found
+        Ok(found)
     }
 }
 
@@ -123,11 +150,12 @@ mod tests {
         for n in lengths {
             let mesh = part(n);
             index.update(&mesh);
-            let found = index.intersections(&mesh, patch).total();
-            assert_eq!(
-                found,
-                MeshIndex::build(&mesh).intersections(&mesh, patch).total()
-            );
+            let total = |index: &MeshIndex| {
+                let found = index.intersections(&mesh, patch, &|| false);
+                found.unwrap().total()
+            };
+            let found = total(&index);
+            assert_eq!(found, total(&MeshIndex::build(&mesh)));
             let appended = n.saturating_sub(index.base_count);
             assert!(index.later.len() <= 2 + appended.ilog2_or_zero());
             counts.push(found);

@@ -5,7 +5,7 @@ use super::options::FillOptions;
 use super::plan::{Failure, Plan, Planner, chain};
 use super::progress::{ProgressCallback, Watch};
 use super::report::{FillReport, HoleReport, HoleStatus};
-use super::stitch::Stitcher;
+use super::stitch::{Outcome, Stitcher};
 use crate::boundary::classify::LoopClass;
 use crate::boundary::loops::{BoundaryLoop, BoundaryLoops};
 use crate::boundary::select::Selection;
@@ -64,18 +64,29 @@ pub fn fill_holes(
     }
     let pool = thread_pool(options)?;
     let start = Instant::now();
-    let index = pool.install(|| MeshIndex::build(mesh));
-    report.index_seconds = start.elapsed().as_secs_f64();
-
-    let start = Instant::now();
+    let watch = Watch::new(holes.len(), options.time_budget, progress);
     let work = Work {
         options,
         pool: &pool,
-        watch: &Watch::new(holes.len(), options.time_budget, progress),
+        watch: &watch,
     };
-    let planned_at = mesh.triangles().len();
-    let planned = work.plan(mesh, &index, &holes);
-    work.stitch(mesh, &index, planned_at, &holes, planned, &mut report.holes);
+    let index = pool.install(|| MeshIndex::build_unless(mesh, &|| watch.is_interrupted()));
+    report.index_seconds = start.elapsed().as_secs_f64();
+
+    let start = Instant::now();
+    match index {
+        Ok(index) => {
+            let planned_at = mesh.triangles().len();
+            let planned = work.plan(mesh, &index, &holes);
+            work.stitch(mesh, &index, planned_at, &holes, planned, &mut report.holes);
+        }
+        Err(error) => {
+            let outcome = Outcome::failed(watch.explain(error), Vec::new());
+            for hole in &holes {
+                outcome.record_all(hole, 0.0, &mut report.holes);
+            }
+        }
+    }
     report.fill_seconds = start.elapsed().as_secs_f64();
     Ok(report)
 }
@@ -143,7 +154,7 @@ impl Work<'_> {
             let outcome = outcome.map_err(|failure| self.explain(failure));
             (outcome, start.elapsed().as_secs_f64())
         };
-        // One thread is the caller's own: its memory is warm, and callbacks come from where the call came.
+        // One thread is the caller's own: its memory is warm.
         if self.options.threads == 1 {
             holes.iter().map(plan).collect()
         } else {

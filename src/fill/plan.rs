@@ -11,7 +11,7 @@ use super::report::Attempt;
 
 use super::verify::check_patch;
 use crate::boundary::loops::BoundaryLoop;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::Vec3;
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::PatchSurface;
@@ -163,7 +163,8 @@ impl Planner<'_> {
         method: Method,
     ) -> Result<Candidate> {
         let surface = maker.patch(method)?;
-        check_patch(hole, &surface)?;
+        check_patch(hole, &surface, self.interrupted)?;
+        proceed_unless(self.interrupted)?;
         let points: Vec<Vec3> = surface.points[surface.rim_count..]
             .iter()
             .map(|p| hole.to_mesh(p).into())
@@ -173,7 +174,9 @@ impl Planner<'_> {
             points: &points,
             triangles: &triangles,
         };
-        let intersections = self.index.intersections(self.mesh, patch);
+        let intersections = self
+            .index
+            .intersections(self.mesh, patch, self.interrupted)?;
         Ok(Candidate {
             method,
             surface,

@@ -6,21 +6,24 @@ use super::options::FillOptions;
 use super::pipeline::{
     HoleLoops, Planned, Work, blank_report, group_holes, thread_pool, unfillable_reason,
 };
-use super::plan::{Plan, chain};
+use super::plan::{Failure, Plan, chain};
 use super::polyline;
 use super::progress::{ProgressCallback, Watch};
 use super::report::{FillReport, HoleReport};
 use super::stitch::Outcome;
 use crate::boundary::loops::{BoundaryLoop, BoundaryLoops};
 use crate::boundary::select::Selection;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::Vec3;
 use crate::mesh::attributes::AttributeValues;
 use crate::mesh::connectivity::BOUNDARY;
 use crate::mesh::trimesh::TriMesh;
 use std::ops::Range;
-use std::sync::{Arc, OnceLock};
-use std::time::Instant;
+use std::sync::{Arc, Mutex, OnceLock, TryLockError};
+use std::time::{Duration, Instant};
+
+/// Time between two looks whether another thread has built the index.
+const WAIT: Duration = Duration::from_millis(1);
 
 /// Which holes to plan or to fill.
 #[derive(Clone, Copy, Debug)]
@@ -43,6 +46,8 @@ pub struct FillSession {
     polyline: Option<Option<Vec<Vec3>>>,
     boundary: OnceLock<Boundary>,
     index: OnceLock<MeshIndex>,
+    /// Held while the index is built.
+    indexing: Mutex<()>,
     /// Vertices and triangles before each fill that was not undone.
     fills: Vec<[usize; 2]>,
     /// Counts changes of the mesh.
@@ -109,6 +114,7 @@ impl FillSession {
             polyline: None,
             boundary: OnceLock::new(),
             index: OnceLock::new(),
+            indexing: Mutex::new(()),
             fills: Vec::new(),
             revision: 0,
             undone: Vec::new(),
@@ -192,7 +198,8 @@ impl FillSession {
     /// Finds the loops and builds the index now, so that the next fill costs no more than its holes.
     pub fn prepare(&self) {
         self.found_boundary();
-        self.index();
+        // Nothing stops it, so there is nothing that can fail.
+        let _ = self.index_unless(&|| false);
     }
 
     /// Whether the loop `id` has not been closed.
@@ -318,7 +325,7 @@ impl FillSession {
             let pool = thread_pool(options)?;
             let start = Instant::now();
             let is_indexed = self.index.get().is_some();
-            let index = pool.install(|| self.index());
+            let index = pool.install(|| self.index_unless(&|| watch.is_interrupted()));
             if !is_indexed {
                 plan.report.index_seconds = start.elapsed().as_secs_f64();
             }
@@ -328,13 +335,18 @@ impl FillSession {
                 pool: &pool,
                 watch,
             };
-            let planned = match &self.polyline {
-                None => work.plan(&self.mesh, index, &holes),
-                Some(normals) => work.plan_by(&self.mesh, index, &holes, |planner, _| {
-                    let hole = Hole::of_polyline(self.mesh.points(), normals.as_deref())
-                        .map_err(super::plan::Failure::from)?;
-                    planner.plan_hole(hole, &chain(options))
-                }),
+            let planned = match (index, &self.polyline) {
+                (Err(error), _) => {
+                    let failure = Failure::from(watch.explain(error));
+                    vec![(Err(failure), 0.0); holes.len()]
+                }
+                (Ok(index), None) => work.plan(&self.mesh, index, &holes),
+                (Ok(index), Some(normals)) => {
+                    work.plan_by(&self.mesh, index, &holes, |planner, _| {
+                        let hole = Hole::of_polyline(self.mesh.points(), normals.as_deref())?;
+                        planner.plan_hole(hole, &chain(options))
+                    })
+                }
             };
             if watch.is_cancelled() {
                 return Err(Error::cancelled());
@@ -375,11 +387,12 @@ impl FillSession {
             return Ok(report);
         }
         let start = Instant::now();
-        self.index();
         let pool = thread_pool(&plan.options)?;
         let before = [self.mesh.positions().len(), self.mesh.triangles().len()];
+        // A plan whose time ran out may have left no index; it has no patches to check either.
         let (Some(boundary), Some(index)) = (self.boundary.get(), self.index.get()) else {
-            return Err(invalid("the loops of the mesh are not known".to_owned()));
+            report.holes.clone_from(&plan.report.holes);
+            return Ok(report);
         };
         let loops = &boundary.loops.loops;
         let holes: Vec<HoleLoops<'_>> = plan
@@ -471,8 +484,23 @@ impl FillSession {
         })
     }
 
-    fn index(&self) -> &MeshIndex {
-        self.index.get_or_init(|| MeshIndex::build(&self.mesh))
+    /// The index, built if it is not there yet. One thread builds it, and others that need it wait.
+    fn index_unless(&self, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<&MeshIndex> {
+        loop {
+            if let Some(index) = self.index.get() {
+                return Ok(index);
+            }
+            proceed_unless(interrupted)?;
+            match self.indexing.try_lock() {
+                // Another thread may have been done just before the lock was free.
+                Ok(_guard) if self.index.get().is_none() => {
+                    let index = MeshIndex::build_unless(&self.mesh, interrupted)?;
+                    return Ok(self.index.get_or_init(|| index));
+                }
+                Err(TryLockError::Poisoned(_)) => self.indexing.clear_poison(),
+                _ => std::thread::sleep(WAIT),
+            }
+        }
     }
 
     fn find_edge(&self, from: u32, to: u32) -> Option<usize> {

@@ -2,11 +2,13 @@
 
 mod parameter;
 mod staircase;
+mod unfold;
 
 pub use parameter::Parameter;
 
 use super::method::Method;
 use crate::error::{Error, ErrorKind, Result};
+use crate::triangulate::unfold::UnfoldOptions;
 use parameter::{number, switch, switch_name};
 
 /// How holes are filled.
@@ -18,7 +20,7 @@ use parameter::{number, switch, switch_name};
 pub struct FillOptions {
     /// The method; default [`Method::Auto`].
     pub method: Method,
-    /// Seed of the methods that use random numbers; default 0. The methods of this version use none.
+    /// Seed of the methods that use random numbers; default 0.
     pub seed: u64,
     /// Threads that fill holes at the same time; 0 (the default) takes as many as there are processors,
     /// 1 fills them on the calling thread. Intersection tests of patches with more than a few hundred
@@ -43,6 +45,8 @@ pub struct FillOptions {
     /// they were. `None` (the default) sets no limit. Which holes are finished in time depends on the
     /// machine; a patch that is finished is the same as without a limit.
     pub time_budget: Option<f64>,
+    /// How [`Method::UnfoldArea`] and [`Method::UnfoldFairing`] unfold the rim.
+    pub unfold: UnfoldOptions,
 }
 
 impl Default for FillOptions {
@@ -58,12 +62,13 @@ impl Default for FillOptions {
             grading: None,
             max_new_vertices: 10_000_000,
             time_budget: None,
+            unfold: UnfoldOptions::default(),
         }
     }
 }
 
 /// The parameters, by the method or stage that they belong to.
-const GROUPS: &[&[Parameter]] = &[FILL, staircase::PARAMETERS];
+const GROUPS: &[&[Parameter]] = &[FILL, staircase::PARAMETERS, unfold::PARAMETERS];
 
 const FILL: &[Parameter] = &[
     Parameter {

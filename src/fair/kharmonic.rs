@@ -56,7 +56,7 @@ pub(crate) fn fair(
     let domain = Domain::new(surface, surroundings, order as u32 - 1, weights);
     let (matrix, right_side) = match order {
         Order::One => membrane_equations(&domain, &domain.points[..domain.rim_count]),
-        _ => Operator::new(&domain, order).normal_equations(),
+        _ => Operator::new(&domain, order).normal_equations(&domain.points),
     };
     let solution = solver.solve(matrix, &right_side)?;
     surface.points[surface.rim_count..].copy_from_slice(&solution);
@@ -75,6 +75,27 @@ pub(crate) fn extend_from_rim(
 ) -> Result<Vec<Vec3>> {
     let domain = Domain::new(surface, &Surroundings::default(), 0, Weights::Uniform);
     let (matrix, right_side) = membrane_equations(&domain, rim_values);
+    solver.solve(matrix, &right_side)
+}
+
+/// Extends values given at the rim and round it to the interior vertices, three at a time, by the minimum of
+/// the thin-plate energy: they go on with the slope that they have round the rim, and may leave its range.
+/// `around_values` belong to the points of `surroundings`.
+///
+/// # Errors
+/// [`crate::ErrorKind::Solver`] when the system cannot be solved.
+pub(crate) fn extend_with_slope(
+    surface: &PatchSurface,
+    surroundings: &Surroundings,
+    rim_values: &[Vec3],
+    around_values: &[Vec3],
+    solver: &mut SpdSolver,
+) -> Result<Vec<Vec3>> {
+    let domain = Domain::new(surface, surroundings, 1, Weights::Cotangent);
+    let mut values = vec![Vec3::zeros(); domain.vertex_count()];
+    values[..domain.rim_count].copy_from_slice(rim_values);
+    values[domain.patch_count..].copy_from_slice(around_values);
+    let (matrix, right_side) = Operator::new(&domain, Order::Two).normal_equations(&values);
     solver.solve(matrix, &right_side)
 }
 
@@ -145,12 +166,12 @@ impl<'a> Operator<'a> {
         }
     }
 
-    /// Matrix and right-hand side over the interior vertices.
-    fn normal_equations(&self) -> (SymmetricMatrix, Vec<Vec3>) {
+    /// Matrix and right-hand side over the interior vertices; the others keep their `values`.
+    fn normal_equations(&self, values: &[Vec3]) -> (SymmetricMatrix, Vec<Vec3>) {
         let domain = self.domain;
         let mut fixed = vec![Vec3::zeros(); domain.vertex_count()];
         for v in self.fixed_vertices() {
-            let p = domain.points[v];
+            let p = values[v];
             let mut diagonal = 0.0;
             for e in domain.row(v) {
                 diagonal += e.weight;

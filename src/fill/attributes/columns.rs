@@ -60,18 +60,18 @@ fn is_float(column: &Attribute) -> bool {
 
 /// Whether one of the words in the name is that of a label: `label`, `material_id`, `faceId`, `classes`.
 fn is_label(name: &str) -> bool {
-    let mut words = vec![String::new()];
+    let mut words = String::new();
     let mut was_lower = false;
     for c in name.chars() {
         if !c.is_alphabetic() || (c.is_uppercase() && was_lower) {
-            words.push(String::new());
+            words.push(' ');
         }
         if c.is_alphabetic() {
-            words.last_mut().map(|word| word.extend(c.to_lowercase()));
+            words.extend(c.to_lowercase());
         }
         was_lower = c.is_lowercase();
     }
-    words.iter().any(|word| {
+    words.split(' ').any(|word| {
         let is = |word: &str| LABELS.contains(&word);
         is(word)
             || word.strip_suffix('s').is_some_and(is)

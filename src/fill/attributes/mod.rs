@@ -96,16 +96,20 @@ impl AttributeTask<'_> {
         let (hole, surface) = (self.hole, self.surface);
         let columns = self.mesh.vertex_attributes().columns();
         let new_count = surface.points.len() - surface.rim_count;
-        let mut carried = CarriedAttributes::default();
-        carried.vertex_sources = if columns.is_empty() {
+        let vertex_sources = if columns.is_empty() {
             vec![0; new_count]
         } else {
             nearest_rim_vertices(hole, surface)
         };
-        carried.face_sources = if self.mesh.face_attributes().columns().is_empty() {
+        let face_sources = if self.mesh.face_attributes().columns().is_empty() {
             vec![0; surface.triangles.len()]
         } else {
             nearest_rim_faces(hole, surface)
+        };
+        let mut carried = CarriedAttributes {
+            vertex_sources,
+            vertex_values: Vec::new(),
+            face_sources,
         };
         if columns.is_empty() || new_count == 0 {
             return Ok(carried);

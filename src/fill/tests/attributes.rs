@@ -149,7 +149,7 @@ fn numbers_of_every_type_follow_the_surface_and_constants_stay() {
                 let (_, new) = filled.rim_and_new(name);
                 assert!(new.len() > 20);
                 for (value, p) in new.iter().zip(filled.new_points()) {
-                    let error = (value - expected(&p)).abs();
+                    let error = (value - expected(p)).abs();
                     assert!(
                         error < tolerance,
                         "{name} by {interpolator:?}: {error} at {p}"

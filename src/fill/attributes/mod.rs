@@ -14,7 +14,7 @@ mod rbf;
 
 use super::hole::{Band, Hole};
 use super::options::{AttributeOptions, Interpolator};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{ErrorKind, Result, proceed_unless};
 use crate::fair::kharmonic::{extend_from_rim, extend_with_slope};
 use crate::math::sparse::SpdSolver;
 use crate::math::{Vec3, cross_normal, unit};
@@ -245,7 +245,7 @@ impl AttributeTask<'_> {
 
     fn by_thin_plate(&self, band: &Band, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {
         let rim_count = self.surface.rim_count;
-        let mut solver = SpdSolver::default();
+        let mut solver = SpdSolver::new(self.interrupted);
         let mut result = Vec::with_capacity(channels.len());
         for three in channels.chunks(3) {
             self.check_interruption(0)?;
@@ -266,7 +266,7 @@ impl AttributeTask<'_> {
     fn by_membrane(&self, at_rim: impl Fn(usize) -> Vec<f64>) -> Result<Vec<Vec<f64>>> {
         let rows: Vec<Vec<f64>> = (0..self.surface.rim_count).map(at_rim).collect();
         let channels = rows.first().map_or(0, Vec::len);
-        let mut solver = SpdSolver::default();
+        let mut solver = SpdSolver::new(self.interrupted);
         let mut result = Vec::with_capacity(channels);
         for first in (0..channels).step_by(3) {
             self.check_interruption(0)?;
@@ -289,8 +289,8 @@ impl AttributeTask<'_> {
 
     /// Asks at every [`INTERRUPTION_INTERVAL`]th `step`.
     fn check_interruption(&self, step: usize) -> Result<()> {
-        if step.is_multiple_of(INTERRUPTION_INTERVAL) && (self.interrupted)() {
-            return Err(Error::cancelled());
+        if step.is_multiple_of(INTERRUPTION_INTERVAL) {
+            proceed_unless(self.interrupted)?;
         }
         Ok(())
     }

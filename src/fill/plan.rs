@@ -1,8 +1,8 @@
 //! Finds the patch for one hole without touching the mesh: methods in turn until one gives a patch that
 //! passes every check.
 
-use super::carry::{CarriedAttributes, carry};
-use super::hole::Hole;
+use super::attributes::{AttributeTask, CarriedAttributes};
+use super::hole::{Hole, HoleReach};
 use super::index::MeshIndex;
 use super::method::Method;
 use super::methods::PatchMaker;
@@ -108,8 +108,11 @@ impl Planner<'_> {
         islands: &[&BoundaryLoop],
         methods: &[Method],
     ) -> std::result::Result<Plan, Failure> {
-        let rings = methods.first().map_or(1, |&m| PatchMaker::ring_count(m));
-        match Hole::new(self.mesh, outer, islands, rings) {
+        let reach = methods
+            .iter()
+            .map(|&m| PatchMaker::reach(m))
+            .fold(HoleReach::rings(1), HoleReach::union);
+        match Hole::new(self.mesh, outer, islands, reach) {
             Ok(hole) => self.plan_hole(hole, methods),
             Err(error) => Err(error.into()),
         }
@@ -159,7 +162,7 @@ impl Planner<'_> {
         if candidate.intersections.total() > 0 {
             tried.remove(position);
         }
-        Ok(self.finish(hole, candidate, tried))
+        self.finish(hole, candidate, tried)
     }
 
     fn candidate(
@@ -191,21 +194,36 @@ impl Planner<'_> {
         })
     }
 
-    fn finish(&self, hole: Hole, candidate: Candidate, tried: Vec<Attempt>) -> Plan {
+    fn finish(
+        &self,
+        hole: Hole,
+        candidate: Candidate,
+        tried: Vec<Attempt>,
+    ) -> std::result::Result<Plan, Failure> {
         let Candidate {
             method,
             surface,
             points,
             intersections,
         } = candidate;
-        let attributes = carry(self.mesh, &hole, &surface);
+        let task = AttributeTask {
+            mesh: self.mesh,
+            hole: &hole,
+            surface: &surface,
+            options: &self.options.attributes,
+            interrupted: self.interrupted,
+        };
+        let attributes = match task.carry() {
+            Ok(attributes) => attributes,
+            Err(error) => return Err(Failure { error, tried }),
+        };
         let corners = |t: &[u32; 3]| t.map(|v| surface.points[v as usize]);
         let min_angle = surface
             .triangles
             .iter()
             .map(|t| smallest_angle(&corners(t)))
             .fold(std::f64::consts::PI, f64::min);
-        Plan {
+        Ok(Plan {
             hole,
             method,
             tried,
@@ -214,7 +232,7 @@ impl Planner<'_> {
             self_intersections: intersections.total(),
             min_angle,
             attributes,
-        }
+        })
     }
 }
 

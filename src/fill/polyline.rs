@@ -1,6 +1,6 @@
 //! A closed polyline in space as a hole: nothing lies round it but what its normals say.
 
-use super::hole::Hole;
+use super::hole::{Hole, LocalIndex};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec3, cross_normal, unit};
 use crate::patch::{HoleShape, Surroundings};
@@ -65,6 +65,8 @@ impl Hole {
                 surroundings,
                 joined,
             },
+            halfedges: Vec::new(),
+            rim_index: LocalIndex::new((0..n as u32).map(|i| (i, i)).collect()),
             center,
             scale,
             is_in_mesh: false,

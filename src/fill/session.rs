@@ -4,7 +4,8 @@ use super::hole::Hole;
 use super::index::MeshIndex;
 use super::options::FillOptions;
 use super::pipeline::{
-    HoleLoops, Planned, Work, blank_report, group_holes, thread_pool, unfillable_reason,
+    HoleLoops, Planned, Work, blank_report, check_attribute_names, group_holes, thread_pool,
+    unfillable_reason,
 };
 use super::plan::{Failure, Plan, chain};
 use super::polyline;
@@ -308,6 +309,7 @@ impl FillSession {
         watch: &mut Watch<'_>,
     ) -> Result<FillPlan> {
         options.check()?;
+        check_attribute_names(&self.mesh, options)?;
         let (blank, holes) = self.holes(target, options)?;
         watch.expect(holes.len());
         let mut plan = FillPlan {

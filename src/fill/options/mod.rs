@@ -1,9 +1,11 @@
 //! Options of a fill, and every parameter by its documented name.
 
+mod attributes;
 mod parameter;
 mod staircase;
 mod unfold;
 
+pub use attributes::{AttributeOptions, FilledAttributes, Interpolator};
 pub use parameter::Parameter;
 
 use super::method::Method;
@@ -45,6 +47,8 @@ pub struct FillOptions {
     /// they were. `None` (the default) sets no limit. Which holes are finished in time depends on the
     /// machine; a patch that is finished is the same as without a limit.
     pub time_budget: Option<f64>,
+    /// How the attributes of new vertices are made.
+    pub attributes: AttributeOptions,
     /// How [`Method::UnfoldArea`] and [`Method::UnfoldFairing`] unfold the rim.
     pub unfold: UnfoldOptions,
 }
@@ -62,13 +66,19 @@ impl Default for FillOptions {
             grading: None,
             max_new_vertices: 10_000_000,
             time_budget: None,
+            attributes: AttributeOptions::default(),
             unfold: UnfoldOptions::default(),
         }
     }
 }
 
 /// The parameters, by the method or stage that they belong to.
-const GROUPS: &[&[Parameter]] = &[FILL, staircase::PARAMETERS, unfold::PARAMETERS];
+const GROUPS: &[&[Parameter]] = &[
+    FILL,
+    staircase::PARAMETERS,
+    unfold::PARAMETERS,
+    attributes::PARAMETERS,
+];
 
 const FILL: &[Parameter] = &[
     Parameter {

@@ -154,8 +154,11 @@ pub(crate) fn check_against_mesh(
     for t in triangles {
         for k in 0..3 {
             let (a, b) = (t[k], t[(k + 1) % 3]);
+            if !(is_old(a) && is_old(b)) {
+                continue;
+            }
             let is_rim = rim_edges.binary_search(&(a.min(b), a.max(b))).is_ok();
-            if is_old(a) && is_old(b) && !is_rim && mesh.connectivity().has_edge(a, b) {
+            if !is_rim && mesh.connectivity().has_edge(a, b) {
                 return Err(topology(format!(
                     "vertices {a} and {b} are joined by an edge already"
                 )));

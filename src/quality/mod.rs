@@ -6,6 +6,7 @@
 pub(crate) mod closest;
 pub mod deviation;
 pub(crate) mod intersect;
+mod projection;
 pub(crate) mod self_intersection;
 mod separation;
 pub(crate) mod shape;

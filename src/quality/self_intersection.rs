@@ -11,6 +11,7 @@
 use super::{
     Surface,
     intersect::{COPLANAR, intersects_improperly},
+    projection::covers_nothing_twice,
     separation::Separator,
     spatial::FaceIndex,
 };
@@ -182,7 +183,12 @@ impl Task<'_> {
         swept.sort_unstable_by(|(a, i), (b, j)| a.lo[axis].total_cmp(&b.lo[axis]).then(i.cmp(j)));
         let separators = self.separators(0..self.boxes.len());
         let mut pairs = Vec::new();
-        for (k, (a, i)) in swept.iter().enumerate() {
+        let alone = if covers_nothing_twice(self.triangles, self.corners) {
+            0
+        } else {
+            swept.len()
+        };
+        for (k, (a, i)) in swept[..alone].iter().enumerate() {
             for (b, j) in &swept[k + 1..] {
                 if b.lo[axis] > a.hi[axis] {
                     break;

@@ -4,7 +4,6 @@ pub(crate) mod aabb;
 pub(crate) mod box_tree;
 mod envelope;
 pub(crate) mod plane;
-#[allow(dead_code)] // until a method uses it
 pub(crate) mod random;
 pub(crate) mod sparse;
 

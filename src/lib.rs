@@ -40,7 +40,7 @@ pub use boundary::loops::{BoundaryLoop, BoundaryLoops};
 pub use boundary::select::Selection;
 pub use error::{Error, ErrorKind, Result};
 pub use fill::method::Method;
-pub use fill::options::{FillOptions, Parameter};
+pub use fill::options::{AttributeOptions, FillOptions, FilledAttributes, Interpolator, Parameter};
 pub use fill::pipeline::fill_holes;
 pub use fill::progress::{Progress, ProgressCallback};
 pub use fill::report::{Attempt, FillReport, HoleReport, HoleStatus};

@@ -1,6 +1,6 @@
 //! Filling holes: options, planning, verification, stitching, report.
 
-mod carry;
+mod attributes;
 mod hole;
 pub(crate) mod method;
 mod methods;

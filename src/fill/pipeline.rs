@@ -1,6 +1,6 @@
 //! Fills the chosen holes of a mesh: plans in parallel on the unchanged mesh, then stitches in order.
 
-use super::options::FillOptions;
+use super::options::{FillOptions, FilledAttributes};
 use super::plan::{Failure, Plan, Planner, chain};
 use super::progress::{Progress, ProgressCallback};
 use super::report::{FillReport, HoleReport, HoleStatus};
@@ -36,7 +36,7 @@ use std::time::Instant;
 ///
 /// # Errors
 /// [`ErrorKind::InvalidInput`] when the selection names an edge that is on no loop, when `boundary` is not that
-/// of `mesh`, when an option is out of its range, or when the thread pool cannot be made. The mesh is then
+/// of `mesh`, when an option is out of its range or names an attribute that `mesh` lacks, or when the thread pool cannot be made. The mesh is then
 /// unchanged. What goes wrong with a single hole is not an error of the call.
 ///
 /// # Complexity
@@ -50,6 +50,7 @@ pub fn fill_holes(
     progress: Option<ProgressCallback<'_>>,
 ) -> Result<FillReport> {
     options.check()?;
+    check_attribute_names(mesh, options)?;
     check_boundary(mesh, boundary)?;
     let kept = selection.reasons_to_keep(boundary)?;
     let holes = group_holes(boundary, &kept, options);
@@ -191,6 +192,24 @@ fn blank_report(l: &BoundaryLoop, kept: &Option<String>) -> HoleReport {
         self_intersections: 0,
         min_angle: None,
         seconds: 0.0,
+    }
+}
+
+fn check_attribute_names(mesh: &TriMesh, options: &FillOptions) -> Result<()> {
+    let FilledAttributes::Only(names) = &options.attributes.filled else {
+        return Ok(());
+    };
+    let attributes = mesh.vertex_attributes();
+    match names.iter().find(|name| attributes.get(name).is_none()) {
+        None => Ok(()),
+        Some(name) => {
+            let known: Vec<&str> = attributes.iter().map(|a| a.name.as_str()).collect();
+            let message = format!(
+                "there is no vertex attribute '{name}' to fill; there are: {}",
+                known.join(", ")
+            );
+            Err(Error::new(ErrorKind::InvalidInput, message))
+        }
     }
 }
 

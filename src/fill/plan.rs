@@ -1,8 +1,8 @@
 //! Finds the patch for one hole without touching the mesh: methods in turn until one gives a patch that
 //! passes every check.
 
-use super::carry::{CarriedAttributes, carry};
-use super::hole::Hole;
+use super::attributes::{AttributeTask, CarriedAttributes};
+use super::hole::{Hole, HoleReach};
 use super::method::Method;
 use super::methods::PatchMaker;
 use super::options::FillOptions;
@@ -95,8 +95,11 @@ impl Planner<'_> {
         methods: &[Method],
     ) -> std::result::Result<Plan, Failure> {
         let mut tried = Vec::new();
-        let rings = methods.first().map_or(1, |&m| PatchMaker::ring_count(m));
-        let hole = match Hole::new(self.mesh, outer, islands, rings) {
+        let reach = methods
+            .iter()
+            .map(|&m| PatchMaker::reach(m))
+            .fold(HoleReach::rings(1), HoleReach::union);
+        let hole = match Hole::new(self.mesh, outer, islands, reach) {
             Ok(hole) => hole,
             Err(error) => return Err(Failure { error, tried }),
         };
@@ -137,7 +140,7 @@ impl Planner<'_> {
         if candidate.intersections.total() > 0 {
             tried.remove(position);
         }
-        Ok(self.finish(hole, candidate, tried))
+        self.finish(hole, candidate, tried)
     }
 
     fn candidate(
@@ -171,21 +174,36 @@ impl Planner<'_> {
         })
     }
 
-    fn finish(&self, hole: Hole, candidate: Candidate, tried: Vec<Attempt>) -> Plan {
+    fn finish(
+        &self,
+        hole: Hole,
+        candidate: Candidate,
+        tried: Vec<Attempt>,
+    ) -> std::result::Result<Plan, Failure> {
         let Candidate {
             method,
             surface,
             points,
             intersections,
         } = candidate;
-        let attributes = carry(self.mesh, &hole, &surface);
+        let task = AttributeTask {
+            mesh: self.mesh,
+            hole: &hole,
+            surface: &surface,
+            options: &self.options.attributes,
+            interrupted: self.interrupted,
+        };
+        let attributes = match task.carry() {
+            Ok(attributes) => attributes,
+            Err(error) => return Err(Failure { error, tried }),
+        };
         let corners = |t: &[u32; 3]| t.map(|v| surface.points[v as usize]);
         let min_angle = surface
             .triangles
             .iter()
             .map(|t| smallest_angle(&corners(t)))
             .fold(std::f64::consts::PI, f64::min);
-        Plan {
+        Ok(Plan {
             hole,
             method,
             tried,
@@ -194,7 +212,7 @@ impl Planner<'_> {
             self_intersections: intersections.total(),
             min_angle,
             attributes,
-        }
+        })
     }
 }
 

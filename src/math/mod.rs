@@ -5,6 +5,7 @@ pub(crate) mod box_tree;
 mod envelope;
 pub(crate) mod plane;
 pub(crate) mod random;
+pub(crate) mod segments;
 pub(crate) mod sparse;
 
 /// A point or direction; the type that all geometry is computed in.

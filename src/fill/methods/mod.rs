@@ -3,6 +3,7 @@
 mod staircase;
 mod unfold;
 
+use super::hole::HoleReach;
 use super::method::Method;
 use super::options::FillOptions;
 use crate::error::Result;
@@ -29,9 +30,9 @@ impl<'a> PatchMaker<'a> {
         }
     }
 
-    /// Rings of triangles round the hole that `method` and those it falls back to read.
-    pub(crate) fn ring_count(method: Method) -> u32 {
-        if method == Method::FairC2 { 2 } else { 1 }
+    /// What `method` reads of the mesh round the hole.
+    pub(crate) fn reach(method: Method) -> HoleReach {
+        HoleReach::rings(if method == Method::FairC2 { 2 } else { 1 })
     }
 
     /// The patch of `method` in the hole's coordinates. It is not verified yet.

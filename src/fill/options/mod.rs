@@ -1,9 +1,11 @@
 //! Options of a fill, and every parameter by its documented name.
 
+mod attributes;
 mod parameter;
 mod staircase;
 mod unfold;
 
+pub use attributes::{AttributeOptions, FilledAttributes, Interpolator};
 pub use parameter::Parameter;
 
 use super::method::Method;
@@ -41,6 +43,8 @@ pub struct FillOptions {
     pub grading: Option<f64>,
     /// Largest number of new vertices in one hole; default 10,000,000.
     pub max_new_vertices: usize,
+    /// How the attributes of new vertices are made.
+    pub attributes: AttributeOptions,
     /// How [`Method::UnfoldArea`] and [`Method::UnfoldFairing`] unfold the rim.
     pub unfold: UnfoldOptions,
 }
@@ -57,13 +61,19 @@ impl Default for FillOptions {
             density: 1.0,
             grading: None,
             max_new_vertices: 10_000_000,
+            attributes: AttributeOptions::default(),
             unfold: UnfoldOptions::default(),
         }
     }
 }
 
 /// The parameters, by the method or stage that they belong to.
-const GROUPS: &[&[Parameter]] = &[FILL, staircase::PARAMETERS, unfold::PARAMETERS];
+const GROUPS: &[&[Parameter]] = &[
+    FILL,
+    staircase::PARAMETERS,
+    unfold::PARAMETERS,
+    attributes::PARAMETERS,
+];
 
 const FILL: &[Parameter] = &[
     Parameter {

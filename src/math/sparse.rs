@@ -2,6 +2,7 @@
 //! supernodal Cholesky factorisation of `faer`.
 
 use super::Vec3;
+use super::background::run_unless;
 use super::envelope::Envelope;
 use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use faer::linalg::solvers::SolveCore;
@@ -13,6 +14,10 @@ use faer::{Conj, Mat, Side};
 const ENVELOPE_UNKNOWNS: usize = 4096;
 /// Multiplications up to which the envelope is faster than the bookkeeping of a sparse factorisation.
 const ENVELOPE_WORK: u64 = 10_000_000;
+
+/// Systems of more unknowns are solved on a thread of their own, for which nobody has to wait who wants to stop: the
+/// steps of the factorisation cannot be interrupted. Up to here each takes some milliseconds.
+const WAITED_FOR: usize = 10_000;
 
 /// Added to the diagonal, relative to its mean, against loss of definiteness by rounding.
 const RELATIVE_SHIFT: f64 = 1e-12;
@@ -94,31 +99,48 @@ impl<'a> SpdSolver<'a> {
         for j in 0..size {
             matrix.values[matrix.column_starts[j] as usize] += shift;
         }
-        let pattern = SymbolicSparseColMatRef::new_checked(
-            size,
-            size,
-            &matrix.column_starts,
-            None,
-            &matrix.rows,
-        );
         let is_known = self.pattern.0 == matrix.column_starts && self.pattern.1 == matrix.rows;
-        proceed_unless(self.interrupted)?;
-        let symbolic = match self.symbolic.take().filter(|_| is_known) {
-            Some(symbolic) => symbolic,
-            None => SymbolicLlt::try_new(pattern, Side::Lower)
-                .map_err(|e| failed(format!("symbolic factorisation: {e:?}")))?,
+        let known = self.symbolic.take().filter(|_| is_known);
+        let right_side = right_side.to_vec();
+        let work = move |interrupted: &dyn Fn() -> bool| {
+            factor_and_solve(&matrix, known, &right_side, interrupted)
+                .map(|(solution, symbolic)| (solution, symbolic, matrix))
         };
-        proceed_unless(self.interrupted)?;
-        let values = SparseColMatRef::new(pattern, &matrix.values[..]);
-        let factor = Llt::try_new_with_symbolic(symbolic.clone(), values, Side::Lower)
-            .map_err(|e| failed(format!("factorisation of {size} unknowns: {e:?}")))?;
-        proceed_unless(self.interrupted)?;
-        let mut x = Mat::from_fn(size, 3, |i, k| right_side[i][k]);
-        factor.solve_in_place_with_conj(Conj::No, x.as_mut());
+        let (solution, symbolic, matrix) = if size <= WAITED_FOR {
+            work(self.interrupted)?
+        } else {
+            run_unless(self.interrupted, work)??
+        };
         self.symbolic = Some(symbolic);
         self.pattern = (matrix.column_starts, matrix.rows);
-        finite(rows(&x))
+        finite(solution)
     }
+}
+
+/// Solves a large system; `known` is the symbolic factorisation of its pattern, if there is one yet.
+fn factor_and_solve(
+    matrix: &SymmetricMatrix,
+    known: Option<SymbolicLlt<u32>>,
+    right_side: &[Vec3],
+    interrupted: &dyn Fn() -> bool,
+) -> Result<(Vec<Vec3>, SymbolicLlt<u32>)> {
+    let size = matrix.size();
+    let pattern =
+        SymbolicSparseColMatRef::new_checked(size, size, &matrix.column_starts, None, &matrix.rows);
+    proceed_unless(interrupted)?;
+    let symbolic = match known {
+        Some(symbolic) => symbolic,
+        None => SymbolicLlt::try_new(pattern, Side::Lower)
+            .map_err(|e| failed(format!("symbolic factorisation: {e:?}")))?,
+    };
+    proceed_unless(interrupted)?;
+    let values = SparseColMatRef::new(pattern, &matrix.values[..]);
+    let factor = Llt::try_new_with_symbolic(symbolic.clone(), values, Side::Lower)
+        .map_err(|e| failed(format!("factorisation of {size} unknowns: {e:?}")))?;
+    proceed_unless(interrupted)?;
+    let mut x = Mat::from_fn(size, 3, |i, k| right_side[i][k]);
+    factor.solve_in_place_with_conj(Conj::No, x.as_mut());
+    Ok((rows(&x), symbolic))
 }
 
 fn rows(x: &Mat<f64>) -> Vec<Vec3> {

@@ -22,6 +22,7 @@
 mod boundary;
 mod error;
 mod fair;
+pub mod ffi;
 mod fill;
 #[cfg(test)]
 #[path = "../tests/common/meshes.rs"]
@@ -44,6 +45,7 @@ pub use fill::options::{AttributeOptions, FillOptions, FilledAttributes, Interpo
 pub use fill::pipeline::fill_holes;
 pub use fill::progress::{Progress, ProgressCallback};
 pub use fill::report::{Attempt, FillReport, HoleReport, HoleStatus};
+pub use fill::session::{FillPlan, FillSession, PlannedPatch, Target};
 pub use mesh::attributes::{
     Attribute, AttributeValues, Attributes, ListValues, ScalarType, ScalarValues,
 };

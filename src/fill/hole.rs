@@ -43,18 +43,21 @@ pub(crate) struct Band {
 }
 
 /// A hole, its place in the mesh, and its shape in coordinates of its own.
+#[derive(Clone)]
 pub(crate) struct Hole {
     /// Rim vertices in the mesh; rim vertex `i` of a patch is `rim[i]`.
     pub(crate) rim: Vec<u32>,
     /// Triangle of the mesh at each edge of the shape's polygon; `None` along the bridges to islands.
     pub(crate) outside_faces: Vec<Option<u32>>,
     /// The boundary halfedges of the rim.
-    halfedges: Vec<u32>,
-    rim_index: LocalIndex,
+    pub(super) halfedges: Vec<u32>,
+    pub(super) rim_index: LocalIndex,
     /// What the methods see.
     pub(crate) shape: HoleShape,
-    center: Vec3,
-    scale: f64,
+    pub(super) center: Vec3,
+    pub(super) scale: f64,
+    /// False for a polyline: there are no triangles along its rim.
+    pub(super) is_in_mesh: bool,
 }
 
 impl Hole {
@@ -137,6 +140,7 @@ impl Hole {
             },
             center,
             scale,
+            is_in_mesh: true,
         };
         hole.shape.surroundings = hole
             .band(mesh, Reach::rings(reach.rings.max(1)))
@@ -293,10 +297,11 @@ fn distinct(values: &[u32]) -> Vec<u32> {
 }
 
 /// Local numbers of mesh vertices.
-struct LocalIndex(Vec<(u32, u32)>);
+#[derive(Clone)]
+pub(super) struct LocalIndex(Vec<(u32, u32)>);
 
 impl LocalIndex {
-    fn new(mut pairs: Vec<(u32, u32)>) -> Self {
+    pub(super) fn new(mut pairs: Vec<(u32, u32)>) -> Self {
         pairs.sort_unstable();
         Self(pairs)
     }

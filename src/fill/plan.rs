@@ -3,6 +3,7 @@
 
 use super::attributes::{AttributeTask, CarriedAttributes};
 use super::hole::{Hole, HoleReach};
+use super::index::MeshIndex;
 use super::method::Method;
 use super::methods::PatchMaker;
 use super::options::FillOptions;
@@ -14,12 +15,11 @@ use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::Vec3;
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::PatchSurface;
-use crate::quality::Surface;
-use crate::quality::self_intersection::{AppendedPatch, SelfIntersections, count_unless};
+use crate::quality::self_intersection::{AppendedPatch, SelfIntersections};
 use crate::quality::shape::smallest_angle;
-use crate::quality::spatial::FaceIndex;
 
 /// A patch that may be stitched into the mesh.
+#[derive(Clone)]
 pub(crate) struct Plan {
     pub(crate) hole: Hole,
     pub(crate) method: Method,
@@ -34,6 +34,10 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
+    pub(crate) fn triangle_count(&self) -> usize {
+        self.triangles.len()
+    }
+
     /// The triangles in the indices of a mesh with `vertex_count` vertices before the new ones.
     pub(crate) fn triangles(&self, vertex_count: usize) -> Vec<[u32; 3]> {
         global_triangles(&self.hole, &self.triangles, vertex_count)
@@ -41,9 +45,19 @@ impl Plan {
 }
 
 /// Why there is no plan, and what was tried.
+#[derive(Clone)]
 pub(crate) struct Failure {
     pub(crate) error: Error,
     pub(crate) tried: Vec<Attempt>,
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self {
+            error,
+            tried: Vec::new(),
+        }
+    }
 }
 
 /// The methods to try, best first: the chosen one, then the simpler ones.
@@ -78,7 +92,7 @@ pub(crate) fn chain(options: &FillOptions) -> Vec<Method> {
 /// What planning needs besides the hole.
 pub(crate) struct Planner<'a> {
     pub(crate) mesh: &'a TriMesh,
-    pub(crate) faces: &'a FaceIndex,
+    pub(crate) index: &'a MeshIndex,
     pub(crate) options: &'a FillOptions,
     /// Asked from time to time; true stops the work.
     pub(crate) interrupted: &'a (dyn Fn() -> bool + Sync),
@@ -94,15 +108,23 @@ impl Planner<'_> {
         islands: &[&BoundaryLoop],
         methods: &[Method],
     ) -> std::result::Result<Plan, Failure> {
-        let mut tried = Vec::new();
         let reach = methods
             .iter()
             .map(|&m| PatchMaker::reach(m))
             .fold(HoleReach::rings(1), HoleReach::union);
-        let hole = match Hole::new(self.mesh, outer, islands, reach) {
-            Ok(hole) => hole,
-            Err(error) => return Err(Failure { error, tried }),
-        };
+        match Hole::new(self.mesh, outer, islands, reach) {
+            Ok(hole) => self.plan_hole(hole, methods),
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    /// As [`plan`](Self::plan), for a hole that was cut out already.
+    pub(crate) fn plan_hole(
+        &self,
+        hole: Hole,
+        methods: &[Method],
+    ) -> std::result::Result<Plan, Failure> {
+        let mut tried = Vec::new();
         let mut maker = PatchMaker::new(&hole.shape, self.options, self.interrupted);
         let mut best: Option<(Candidate, usize)> = None;
         let mut last_error = None;
@@ -161,11 +183,9 @@ impl Planner<'_> {
             points: &points,
             triangles: &triangles,
         };
-        let mesh = Surface {
-            points: self.mesh.points(),
-            triangles: self.mesh.triangles(),
-        };
-        let intersections = count_unless(mesh, self.faces, patch, self.interrupted)?;
+        let intersections = self
+            .index
+            .intersections(self.mesh, patch, self.interrupted)?;
         Ok(Candidate {
             method,
             surface,

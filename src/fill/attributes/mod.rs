@@ -72,6 +72,11 @@ impl CarriedAttributes {
                 None => column.values.number(sources[j]).unwrap_or(0.0),
             }
         })?;
+        if faces.is_empty() {
+            // A polyline has no triangle to copy from.
+            faces.append_blank(self.face_sources.len());
+            return Ok(());
+        }
         let sources: Vec<usize> = self.face_sources.iter().map(|&f| f as usize).collect();
         faces.append_copies(&sources)
     }

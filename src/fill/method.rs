@@ -51,6 +51,11 @@ impl Method {
         }
     }
 
+    /// Whether the method unfolds the rim, and so works only where the rim bounds a disk that nothing pierces.
+    pub(crate) fn unfolds(self) -> bool {
+        matches!(self, Self::UnfoldArea | Self::UnfoldFairing)
+    }
+
     /// What the method does, in one line.
     #[must_use]
     pub fn summary(self) -> &'static str {

@@ -101,7 +101,7 @@ pub(crate) struct Planner<'a> {
 impl Planner<'_> {
     /// Finds a patch for the hole that `outer` bounds together with its `islands`, by the first of `methods`
     /// whose patch passes every check and intersects nothing. If each one's intersects something, the one
-    /// with the fewest intersecting pairs is taken.
+    /// with the fewest intersecting pairs is taken, unless a method found the rim knotted.
     pub(crate) fn plan(
         &self,
         outer: &BoundaryLoop,
@@ -128,6 +128,7 @@ impl Planner<'_> {
         let mut maker = PatchMaker::new(&hole.shape, self.options, self.interrupted);
         let mut best: Option<(Candidate, usize)> = None;
         let mut last_error = None;
+        let mut knotted = None;
         for &method in methods {
             let reason = match self.candidate(&hole, &mut maker, method) {
                 Ok(candidate) => {
@@ -148,14 +149,22 @@ impl Planner<'_> {
                 }
                 Err(error) => {
                     let reason = error.to_string();
+                    if error.kind() == ErrorKind::Knotted {
+                        knotted = Some(error.clone());
+                    }
                     last_error = Some(error);
                     reason
                 }
             };
             tried.push(Attempt { method, reason });
         }
+        // Every disk over a knotted rim meets itself: what does so here is no way out.
+        if knotted.is_some() {
+            best = best.filter(|(candidate, _)| candidate.intersections.total() == 0);
+        }
         let Some((candidate, position)) = best else {
-            let error = last_error
+            let error = knotted
+                .or(last_error)
                 .unwrap_or_else(|| Error::new(ErrorKind::InvalidInput, "no method was allowed"));
             return Err(Failure { error, tried });
         };

@@ -9,7 +9,7 @@ use super::options::FillOptions;
 use crate::error::Result;
 use crate::patch::{HoleShape, PatchSurface};
 use staircase::Staircase;
-use unfold::Unfold;
+pub(super) use unfold::Unfold;
 
 /// Makes patches for one hole by one method after the other; what several methods share is done once.
 pub(crate) struct PatchMaker<'a> {

@@ -7,6 +7,7 @@ mod islands;
 mod outcomes;
 mod properties;
 mod shape;
+mod unfold;
 mod verify;
 
 use super::method::Method;

@@ -1,5 +1,11 @@
 //! Surfaces that continue the surroundings of a hole as zero sets of functions.
 
+pub(crate) mod algebraic;
+#[cfg(test)]
+mod fixtures;
+pub(crate) mod frame;
+pub(crate) mod primitives;
+
 use crate::math::Vec3;
 
 /// A point of the known surface with its normal.

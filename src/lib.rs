@@ -50,3 +50,4 @@ pub use mesh::attributes::{
 pub use mesh::defects::{Defect, MeshDefects};
 pub use mesh::trimesh::TriMesh;
 pub use quality::deviation;
+pub use triangulate::unfold::{UnfoldOptions, UnfoldSolver, Unfolding, unfold_curve};

@@ -1,16 +1,19 @@
 //! The methods: each makes a patch from the shape of a hole, whatever happens to the patch afterwards.
 
 mod staircase;
+mod unfold;
 
 use super::method::Method;
 use super::options::FillOptions;
 use crate::error::Result;
 use crate::patch::{HoleShape, PatchSurface};
 use staircase::Staircase;
+use unfold::Unfold;
 
 /// Makes patches for one hole by one method after the other; what several methods share is done once.
 pub(crate) struct PatchMaker<'a> {
     staircase: Staircase<'a>,
+    unfold: Unfold<'a>,
 }
 
 impl<'a> PatchMaker<'a> {
@@ -22,6 +25,7 @@ impl<'a> PatchMaker<'a> {
     ) -> Self {
         Self {
             staircase: Staircase::new(hole, options, interrupted),
+            unfold: Unfold::new(hole, options, interrupted),
         }
     }
 
@@ -35,6 +39,9 @@ impl<'a> PatchMaker<'a> {
     /// # Errors
     /// Those of the method, and [`crate::ErrorKind::Cancelled`].
     pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
-        self.staircase.patch(method)
+        match method {
+            Method::UnfoldArea | Method::UnfoldFairing => self.unfold.patch(method),
+            _ => self.staircase.patch(method),
+        }
     }
 }

@@ -20,6 +20,7 @@
 #![deny(rustdoc::broken_intra_doc_links)]
 
 mod boundary;
+mod crease;
 mod error;
 mod fair;
 mod fill;

@@ -43,7 +43,7 @@ pub use fill::method::Method;
 pub use fill::options::{FillOptions, Parameter};
 pub use fill::pipeline::fill_holes;
 pub use fill::progress::{Progress, ProgressCallback};
-pub use fill::report::{Attempt, FillReport, HoleReport, HoleStatus};
+pub use fill::report::{Attempt, FillReport, HoleReport, HoleStatus, Prediction};
 pub use mesh::attributes::{
     Attribute, AttributeValues, Attributes, ListValues, ScalarType, ScalarValues,
 };

@@ -6,8 +6,7 @@ use super::hole::Hole;
 use super::method::Method;
 use super::methods::PatchMaker;
 use super::options::FillOptions;
-use super::report::Attempt;
-
+use super::report::{Attempt, Prediction};
 use super::verify::check_patch;
 use crate::boundary::loops::BoundaryLoop;
 use crate::error::{Error, ErrorKind, Result};
@@ -31,6 +30,8 @@ pub(crate) struct Plan {
     pub(crate) self_intersections: usize,
     pub(crate) min_angle: f64,
     pub(crate) attributes: CarriedAttributes,
+    /// How the surface was predicted, if a method did so.
+    pub(crate) prediction: Option<Prediction>,
 }
 
 impl Plan {
@@ -54,10 +55,7 @@ pub(crate) fn chain(options: &FillOptions) -> Vec<Method> {
         Method::Membrane,
         Method::Flat,
     ];
-    let first = match options.method {
-        Method::Auto => Method::FairC1,
-        method => method,
-    };
+    let first = options.method;
     let last = if options.fallback { staircase.len() } else { 0 };
     let later = staircase
         .iter()
@@ -131,7 +129,10 @@ impl Planner<'_> {
         if candidate.intersections.total() > 0 {
             tried.remove(position);
         }
-        Ok(self.finish(hole, candidate, tried))
+        let prediction = maker.prediction().cloned();
+        let mut plan = self.finish(hole, candidate, tried);
+        plan.prediction = prediction;
+        Ok(plan)
     }
 
     fn candidate(
@@ -187,6 +188,7 @@ impl Planner<'_> {
             self_intersections: intersections.total(),
             min_angle,
             attributes,
+            prediction: None,
         }
     }
 }

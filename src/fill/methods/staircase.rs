@@ -27,14 +27,14 @@ const START_EXACT_LIMIT: usize = 24;
 /// Relaxations of the coarse patch, which is only a start, and of the final one: a third hardly improves the
 /// angles.
 const COARSE_RELAXATIONS: usize = 0;
-const FINE_RELAXATIONS: usize = 2;
+pub(super) const FINE_RELAXATIONS: usize = 2;
 
 /// Builds patches for one hole; the steps that several methods share are done once.
 pub(crate) struct Staircase<'a> {
     hole: &'a HoleShape,
     options: &'a FillOptions,
     interrupted: &'a dyn Fn() -> bool,
-    refined: Option<Result<PatchSurface>>,
+    refined: Option<Result<(PatchSurface, Vec<f64>)>>,
 }
 
 impl<'a> Staircase<'a> {
@@ -60,10 +60,10 @@ impl<'a> Staircase<'a> {
         let order = match method {
             Method::Flat => return self.triangulate(self.options.exact_limit, EAR_REMAINDER),
             Method::Membrane => Order::One,
-            Method::Auto | Method::FairC1 => Order::Two,
-            Method::FairC2 => Order::Three,
+            Method::FairC1 => Order::Two,
+            Method::FairC2 | Method::Auto | Method::Curvature => Order::Three,
         };
-        let mut surface = self.refined()?;
+        let (mut surface, _) = self.refined()?;
         let mut solver = SpdSolver::default();
         let around = &self.hole.surroundings;
         fair(
@@ -79,7 +79,7 @@ impl<'a> Staircase<'a> {
         Ok(surface)
     }
 
-    fn check_interruption(&self) -> Result<()> {
+    pub(super) fn check_interruption(&self) -> Result<()> {
         if (self.interrupted)() {
             return Err(Error::cancelled());
         }
@@ -117,7 +117,11 @@ impl<'a> Staircase<'a> {
         })
     }
 
-    fn refined(&mut self) -> Result<PatchSurface> {
+    /// The patch before it is faired, and the target edge length of each of its vertices.
+    ///
+    /// # Errors
+    /// Those of triangulation and refinement, and [`crate::ErrorKind::Cancelled`].
+    pub(super) fn refined(&mut self) -> Result<(PatchSurface, Vec<f64>)> {
         if let Some(refined) = &self.refined {
             return refined.clone();
         }
@@ -141,12 +145,17 @@ impl<'a> Staircase<'a> {
                 *size /= COARSENING;
             }
             self.refine(&mut surface, &mut sizes, FINE_RELAXATIONS)?;
-            Ok(surface)
+            Ok((surface, sizes))
         });
         self.refined.insert(refined).clone()
     }
 
-    fn refine(
+    /// Refines a patch of this hole to the target edge lengths `sizes`, of its rim or of all its vertices, which are
+    /// those of all its vertices afterwards.
+    ///
+    /// # Errors
+    /// Those of refinement, and [`crate::ErrorKind::Cancelled`].
+    pub(super) fn refine(
         &self,
         surface: &mut PatchSurface,
         sizes: &mut Vec<f64>,

@@ -53,9 +53,6 @@ const BENT_SHARE: f64 = 0.1;
 /// Candidate of [`Method::Curvature`], and where the surroundings are noisy.
 const UNCHOSEN: [Candidate; 2] = [Candidate::Cubic, Candidate::CubicSmoothed];
 
-/// A candidate must come this close to the best score to be used for a tip.
-const TIP_TOLERANCE: f64 = 1.3;
-
 /// Predicts the surface in one hole.
 pub(super) struct Auto<'a> {
     hole: &'a HoleShape,

@@ -40,7 +40,7 @@ pub use boundary::loops::{BoundaryLoop, BoundaryLoops};
 pub use boundary::select::Selection;
 pub use error::{Error, ErrorKind, Result};
 pub use fill::method::Method;
-pub use fill::options::{FillOptions, Parameter};
+pub use fill::options::{AutoOptions, FillOptions, Parameter};
 pub use fill::pipeline::fill_holes;
 pub use fill::progress::{Progress, ProgressCallback};
 pub use fill::report::{Attempt, FillReport, HoleReport, HoleStatus, Prediction};
@@ -49,4 +49,5 @@ pub use mesh::attributes::{
 };
 pub use mesh::defects::{Defect, MeshDefects};
 pub use mesh::trimesh::TriMesh;
+pub use predict::surface::candidates::Candidate;
 pub use quality::deviation;

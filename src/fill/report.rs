@@ -2,6 +2,7 @@
 
 use super::method::Method;
 use crate::boundary::classify::LoopClass;
+use crate::predict::surface::candidates::Candidate;
 use std::ops::Range;
 
 /// How the filling of one hole ended.
@@ -44,10 +45,10 @@ pub struct Attempt {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prediction {
     /// The candidate that was chosen.
-    pub chosen: &'static str,
+    pub chosen: Candidate,
     /// Root mean square distance, in rim edge lengths, at which each candidate missed the rings round the hole when
     /// it was fitted without them; see `docs/methods/auto.md`. Empty when nothing was compared.
-    pub scores: Vec<(&'static str, f64)>,
+    pub scores: Vec<(Candidate, f64)>,
     /// Standard deviation of the surroundings' vertices from smooth surfaces, in rim edge lengths.
     pub noise: f64,
     /// Whether the hole was taken for the missing tip of a horn.

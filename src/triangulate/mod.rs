@@ -1,8 +1,12 @@
-//! Triangulates the polygon of a hole with no new vertices.
+//! Triangulates the polygon of a hole, in space or in the plane, with no new vertices on it.
 
 mod ear_clip;
 mod min_weight;
+#[allow(dead_code)] // until a method uses it
+pub(crate) mod planar;
 mod polygon;
+#[allow(dead_code)]
+pub(crate) mod simple_polygon;
 #[cfg(test)]
 mod test_polygons;
 

@@ -70,10 +70,10 @@ fn prediction(prediction: &Prediction) -> Value {
     let scores: serde_json::Map<String, Value> = prediction
         .scores
         .iter()
-        .map(|&(candidate, score)| (candidate.to_owned(), score.into()))
+        .map(|&(candidate, score)| (candidate.name().to_owned(), score.into()))
         .collect();
     json!({
-        "chosen": prediction.chosen,
+        "chosen": prediction.chosen.name(),
         "scores": scores,
         "noise": prediction.noise,
         "is_tip": prediction.is_tip,

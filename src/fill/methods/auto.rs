@@ -15,6 +15,7 @@ use crate::math::sparse::SpdSolver;
 use crate::math::{Vec3, cross_normal, unit};
 use crate::patch::{HoleShape, PatchSurface};
 use crate::predict::surface::candidates::Candidate;
+use crate::predict::surface::choice::Score;
 use crate::predict::surface::jets::Band;
 use crate::predict::surface::samples::SampledBand;
 use crate::predict::surface::{Implicit, choice, march, tip};
@@ -86,23 +87,13 @@ impl<'a> Auto<'a> {
     ) -> Result<PatchSurface> {
         let lengths = &self.hole.edge_lengths;
         let step = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
-        let mut samples = SampledBand::new(Band::new(self.hole), step, true);
+        let mut samples = SampledBand::new(Band::new(self.hole), step, self.options.auto.jets);
         staircase.check_interruption()?;
         let is_noisy = samples.is_noisy();
-        let mut scores = Vec::new();
-        let mut is_tip = false;
-        let candidate = if method == Method::Curvature {
-            UNCHOSEN[usize::from(is_noisy)]
-        } else {
-            scores = choice::scores(&mut samples, &Candidate::list(is_noisy));
-            let chosen = choice::choose(&scores, is_noisy)
-                .ok_or_else(|| geometry("the surroundings are too small to predict from"))?;
-            is_tip = !choice::is_exact(&scores) && tip::is_tip(self.hole, &samples.band);
-            chosen
-        };
+        let (candidate, scores, is_tip) = self.choose(method, &mut samples)?;
         self.prediction = Some(Prediction {
-            chosen: candidate.name(),
-            scores: scores.iter().map(|s| (s.0.name(), s.1)).collect(),
+            chosen: candidate,
+            scores,
             noise: samples.noise,
             is_tip,
         });
@@ -127,6 +118,37 @@ impl<'a> Auto<'a> {
             }
             other => other,
         }
+    }
+}
+
+/// Candidate, scores, and whether the hole is a tip.
+type Chosen = (Candidate, Vec<Score>, bool);
+
+impl Auto<'_> {
+    fn choose(&self, method: Method, samples: &mut SampledBand) -> Result<Chosen> {
+        let options = &self.options.auto;
+        let is_noisy = samples.is_noisy();
+        if let Some(candidate) = options.candidate {
+            let is_tip = options.tips && tip::is_tip(self.hole, &samples.band);
+            return Ok((candidate, Vec::new(), is_tip));
+        }
+        if method == Method::Curvature {
+            return Ok((UNCHOSEN[usize::from(is_noisy)], Vec::new(), false));
+        }
+        let candidates: Vec<Candidate> = Candidate::ALL
+            .into_iter()
+            .filter(|c| c.suits(is_noisy))
+            .filter(|c| options.primitives || c.interpolates())
+            .filter(|c| options.quintic || *c != Candidate::Quintic)
+            .collect();
+        let scores = choice::scores(samples, &candidates);
+        let is_tip =
+            options.tips && !choice::is_exact(&scores) && tip::is_tip(self.hole, &samples.band);
+        let closing = is_tip.then(|| tip::closing_candidate(&scores)).flatten();
+        let chosen = closing
+            .or_else(|| choice::choose(&scores, is_noisy))
+            .ok_or_else(|| geometry("the surroundings are too small to predict from"))?;
+        Ok((chosen, scores, closing.is_some()))
     }
 }
 

@@ -40,12 +40,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         name: "auto.candidate",
         help: "the surface that the patch lies on, whatever its score",
         allowed: "choice, plane, sphere, cylinder, cone, torus, quadric, cyclide, rbf3, rbf3-smoothed, rbf3-ridge, rbf5",
-        get: |o| {
-            o.auto
-                .candidate
-                .map_or(CHOICE, Candidate::name)
-                .to_owned()
-        },
+        get: |o| o.auto.candidate.map_or(CHOICE, Candidate::name).to_owned(),
         set: |o, v| {
             o.auto.candidate = if v == CHOICE {
                 None

@@ -51,11 +51,8 @@ pub(crate) fn scores(samples: &mut SampledBand, candidates: &[Candidate]) -> Vec
     let mut scores: Vec<Score> = Vec::new();
     for &candidate in candidates {
         let best = scores.iter().map(|s| s.1).fold(f64::INFINITY, f64::min);
-        let is_hopeless = candidate.gates().iter().any(|gate| {
-            score_of(&scores, *gate)
-                .is_some_and(|score| score > AS_GOOD_AS_EXACT.max(GATE_FACTOR * best))
-        });
-        if is_hopeless {
+        let gate = candidate.gate().and_then(|gate| score_of(&scores, gate));
+        if gate.is_some_and(|score| score > AS_GOOD_AS_EXACT.max(GATE_FACTOR * best)) {
             continue;
         }
         let mut score = leave_out_score(samples, candidate);

@@ -4,6 +4,8 @@
 //! of something long. Interpolating functions round such ends off too early; a quadric, fitted to a converging tube,
 //! is an ellipsoid or a paraboloid and closes like one.
 
+use super::candidates::Candidate;
+use super::choice::{Score, score_of};
 use super::jets::Band;
 use crate::math::Vec3;
 use crate::patch::HoleShape;
@@ -17,6 +19,23 @@ const FLAT: f64 = 0.35;
 const SMALL: usize = 80;
 /// Mean component of the normals towards the hole, at least: 0 is a tube of constant width, which has no tip to grow.
 const CONVERGING: f64 = 0.08;
+
+/// A surface that closes is used when its score is within this factor of the best.
+const TOLERANCE: f64 = 1.3;
+
+/// The surface that closes a tip, if it predicts well: the quadric, or the cone where that has the better score.
+pub(crate) fn closing_candidate(scores: &[Score]) -> Option<Candidate> {
+    let best = scores.iter().map(|s| s.1).min_by(f64::total_cmp)?;
+    let quadric = score_of(scores, Candidate::Quadric)?;
+    let cone = score_of(scores, Candidate::Cone).filter(|&cone| cone < quadric);
+    if quadric.min(cone.unwrap_or(quadric)) >= TOLERANCE * best {
+        None
+    } else if cone.is_some() {
+        Some(Candidate::Cone)
+    } else {
+        Some(Candidate::Quadric)
+    }
+}
 
 /// Judges by the rim, its normals and the direction in which the surroundings end.
 pub(crate) fn is_tip(hole: &HoleShape, band: &Band) -> bool {

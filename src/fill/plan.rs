@@ -7,14 +7,14 @@ use super::method::Method;
 use super::methods::PatchMaker;
 use super::options::FillOptions;
 use super::report::{Attempt, Prediction};
-use super::verify::check_patch;
+use super::verify::{FARTHEST, FARTHEST_PREDICTED, check_patch};
 use crate::boundary::loops::BoundaryLoop;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::Vec3;
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::PatchSurface;
 use crate::quality::Surface;
-use crate::quality::self_intersection::{AppendedPatch, SelfIntersections, count};
+use crate::quality::self_intersection::{AppendedPatch, SelfIntersections, count_unless};
 use crate::quality::shape::smallest_angle;
 use crate::quality::spatial::FaceIndex;
 
@@ -142,7 +142,12 @@ impl Planner<'_> {
         method: Method,
     ) -> Result<Candidate> {
         let surface = maker.patch(method)?;
-        check_patch(hole, &surface)?;
+        let farthest = match method {
+            Method::Auto | Method::Curvature => FARTHEST_PREDICTED,
+            _ => FARTHEST,
+        };
+        check_patch(hole, &surface, farthest, self.interrupted)?;
+        proceed_unless(self.interrupted)?;
         let points: Vec<Vec3> = surface.points[surface.rim_count..]
             .iter()
             .map(|p| hole.to_mesh(p).into())
@@ -156,7 +161,7 @@ impl Planner<'_> {
             points: self.mesh.points(),
             triangles: self.mesh.triangles(),
         };
-        let intersections = count(mesh, self.faces, patch);
+        let intersections = count_unless(mesh, self.faces, patch, self.interrupted)?;
         Ok(Candidate {
             method,
             surface,

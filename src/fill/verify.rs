@@ -1,7 +1,7 @@
 //! Whether a patch may be used: the checks that every filled hole has passed.
 
 use super::hole::Hole;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::aabb::Aabb;
 use crate::math::cross_normal;
 use crate::mesh::connectivity::BOUNDARY;
@@ -14,9 +14,13 @@ const SMALLEST_DOUBLE_AREA: f64 = 2e-10;
 
 /// A patch that goes further from the middle of its rim than this many diameters of the rim has run away: half a
 /// sphere goes 0.35, two thirds of one 0.61.
-const FARTHEST: f64 = 0.75;
+pub(crate) const FARTHEST: f64 = 0.75;
+/// The same for a patch on a predicted surface, which has passed gates of its own: the missing end of a horn is
+/// several times as long as its rim is wide.
+pub(crate) const FARTHEST_PREDICTED: f64 = 3.0;
 
-/// Checks the patch by itself and against the rim.
+/// Checks the patch by itself and against the rim, from whose middle it must not go further than `farthest`
+/// diameters of the rim.
 ///
 /// Every rim edge must have one triangle, which runs along it as the polygon does; every other edge two
 /// triangles of opposite direction, and no counterpart in the mesh; no triangle may be degenerate or
@@ -24,8 +28,14 @@ const FARTHEST: f64 = 0.75;
 /// of a disk, less one for each island.
 ///
 /// # Errors
-/// [`ErrorKind::Topology`] or [`ErrorKind::Geometry`] with the first violation found.
-pub(crate) fn check_patch(hole: &Hole, surface: &PatchSurface) -> Result<()> {
+/// [`ErrorKind::Topology`] or [`ErrorKind::Geometry`] with the first violation found; `Cancelled` when
+/// `interrupted`, which is asked between the checks, returns true.
+pub(crate) fn check_patch(
+    hole: &Hole,
+    surface: &PatchSurface,
+    farthest: f64,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<()> {
     if let Some(v) = surface
         .points
         .iter()
@@ -34,7 +44,7 @@ pub(crate) fn check_patch(hole: &Hole, surface: &PatchSurface) -> Result<()> {
         return Err(geometry(format!("new vertex {v} is not finite")));
     }
     let rim = Aabb::around(&hole.shape.points);
-    let limit = FARTHEST * (rim.hi - rim.lo).norm();
+    let limit = farthest * (rim.hi - rim.lo).norm();
     let middle = (rim.hi + rim.lo) / 2.0;
     if surface.points.iter().any(|p| (p - middle).norm() > limit) {
         return Err(geometry("the patch runs away from the hole".to_owned()));
@@ -56,7 +66,9 @@ pub(crate) fn check_patch(hole: &Hole, surface: &PatchSurface) -> Result<()> {
         }
         edges.extend((0..3).map(|k| edge_key(t[k], t[(k + 1) % 3])));
     }
+    proceed_unless(interrupted)?;
     edges.sort_unstable();
+    proceed_unless(interrupted)?;
     let mut is_used = vec![false; surface.points.len()];
     surface
         .triangles

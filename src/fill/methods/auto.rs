@@ -4,7 +4,7 @@
 //! not seen ([`choice`]). A faired patch is then marched onto the winner in short steps, refined as it grows, and
 //! blended into the rim. What comes out passes the gates below or is not used: then the simpler methods follow.
 
-use super::staircase::{FINE_RELAXATIONS, Staircase};
+use super::staircase::Staircase;
 use crate::error::{Error, ErrorKind, Result};
 use crate::fair::kharmonic::extend_from_rim;
 use crate::fill::method::Method;
@@ -58,14 +58,20 @@ const UNCHOSEN: [Candidate; 2] = [Candidate::Cubic, Candidate::CubicSmoothed];
 pub(super) struct Auto<'a> {
     hole: &'a HoleShape,
     options: &'a FillOptions,
+    interrupted: &'a dyn Fn() -> bool,
     prediction: Option<Prediction>,
 }
 
 impl<'a> Auto<'a> {
-    pub(super) fn new(hole: &'a HoleShape, options: &'a FillOptions) -> Self {
+    pub(super) fn new(
+        hole: &'a HoleShape,
+        options: &'a FillOptions,
+        interrupted: &'a dyn Fn() -> bool,
+    ) -> Self {
         Self {
             hole,
             options,
+            interrupted,
             prediction: None,
         }
     }
@@ -106,6 +112,7 @@ impl<'a> Auto<'a> {
             surface: surface.as_ref(),
             step,
             is_tip,
+            interrupted: self.interrupted,
         };
         let faired = staircase.patch(Method::FairC1)?;
         let result = marcher.patch(&faired, staircase);
@@ -159,6 +166,7 @@ struct Marcher<'a> {
     /// Mean edge length at the rim.
     step: f64,
     is_tip: bool,
+    interrupted: &'a dyn Fn() -> bool,
 }
 
 impl Marcher<'_> {
@@ -178,7 +186,7 @@ impl Marcher<'_> {
         let rim_count = patch.rim_count;
         if self.is_tip && patch.points.len() < rim_count + FEWEST_INTERIOR {
             sizes.iter_mut().for_each(|s| *s *= FINER);
-            staircase.refine(&mut patch, &mut sizes, FINE_RELAXATIONS)?;
+            staircase.refine_again(&mut patch, &mut sizes)?;
             sizes.iter_mut().for_each(|s| *s /= FINER);
         }
         let rim = Aabb::around(&self.hole.points);
@@ -195,7 +203,7 @@ impl Marcher<'_> {
                 return Err(geometry("the patch ran away from the predicted surface"));
             }
             let before = patch.triangles.len() as f64;
-            staircase.refine(&mut patch, &mut sizes, FINE_RELAXATIONS)?;
+            staircase.refine_again(&mut patch, &mut sizes)?;
             let growth = (patch.triangles.len() as f64 - before).abs() / before;
             if longest < SETTLED_MOVE * self.step && growth < SETTLED_GROWTH {
                 break;
@@ -216,7 +224,7 @@ impl Marcher<'_> {
             .map(|p| p - march::project(self.surface, p, LAST_STEPS, limit))
             .collect();
         if patch.points.len() > patch.rim_count {
-            let extended = extend_from_rim(patch, &offsets, &mut SpdSolver::default())?;
+            let extended = extend_from_rim(patch, &offsets, &mut SpdSolver::new(self.interrupted))?;
             for (p, offset) in patch.points[patch.rim_count..].iter_mut().zip(extended) {
                 *p += offset;
             }

@@ -26,7 +26,7 @@ impl<'a> PatchMaker<'a> {
     ) -> Self {
         Self {
             staircase: Staircase::new(hole, options, interrupted),
-            auto: Auto::new(hole, options),
+            auto: Auto::new(hole, options, interrupted),
         }
     }
 

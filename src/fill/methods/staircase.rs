@@ -27,7 +27,7 @@ const START_EXACT_LIMIT: usize = 24;
 /// Relaxations of the coarse patch, which is only a start, and of the final one: a third hardly improves the
 /// angles.
 const COARSE_RELAXATIONS: usize = 0;
-pub(super) const FINE_RELAXATIONS: usize = 2;
+const FINE_RELAXATIONS: usize = 2;
 
 /// Builds patches for one hole; the steps that several methods share are done once.
 pub(crate) struct Staircase<'a> {
@@ -64,7 +64,7 @@ impl<'a> Staircase<'a> {
             Method::FairC2 | Method::Auto | Method::Curvature => Order::Three,
         };
         let (mut surface, _) = self.refined()?;
-        let mut solver = SpdSolver::default();
+        let mut solver = SpdSolver::new(self.interrupted);
         let around = &self.hole.surroundings;
         fair(
             &mut surface,
@@ -133,7 +133,7 @@ impl<'a> Staircase<'a> {
             }
             self.refine(&mut surface, &mut sizes, COARSE_RELAXATIONS)?;
             let around = &self.hole.surroundings;
-            let mut solver = SpdSolver::default();
+            let mut solver = SpdSolver::new(self.interrupted);
             fair(
                 &mut surface,
                 around,
@@ -150,18 +150,25 @@ impl<'a> Staircase<'a> {
         self.refined.insert(refined).clone()
     }
 
-    /// Refines a patch of this hole to the target edge lengths `sizes`, of its rim or of all its vertices, which are
-    /// those of all its vertices afterwards.
+    /// Refines a patch of this hole whose vertices have moved. `sizes` holds the target edge length of each of its
+    /// vertices, and does so afterwards.
     ///
     /// # Errors
     /// Those of refinement, and [`crate::ErrorKind::Cancelled`].
-    pub(super) fn refine(
+    pub(super) fn refine_again(
+        &self,
+        surface: &mut PatchSurface,
+        sizes: &mut Vec<f64>,
+    ) -> Result<()> {
+        self.refine(surface, sizes, FINE_RELAXATIONS)
+    }
+
+    fn refine(
         &self,
         surface: &mut PatchSurface,
         sizes: &mut Vec<f64>,
         final_relaxations: usize,
     ) -> Result<()> {
-        self.check_interruption()?;
         let options = RefineOptions {
             grading: self
                 .options
@@ -172,9 +179,10 @@ impl<'a> Staircase<'a> {
             max_vertices: surface
                 .rim_count
                 .saturating_add(self.options.max_new_vertices),
+            interrupted: self.interrupted,
             ..RefineOptions::default()
         };
         refine(surface, sizes, &options, &|a, b| self.hole.is_joined(a, b))?;
-        self.check_interruption()
+        Ok(())
     }
 }

@@ -51,3 +51,4 @@ pub use mesh::defects::{Defect, MeshDefects};
 pub use mesh::trimesh::TriMesh;
 pub use predict::surface::candidates::Candidate;
 pub use quality::deviation;
+pub use triangulate::unfold::{UnfoldOptions, UnfoldSolver, Unfolding, unfold_curve};

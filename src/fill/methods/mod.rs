@@ -2,6 +2,7 @@
 
 mod auto;
 mod staircase;
+mod unfold;
 
 use super::method::Method;
 use super::options::FillOptions;
@@ -10,11 +11,13 @@ use crate::fill::report::Prediction;
 use crate::patch::{HoleShape, PatchSurface};
 use auto::Auto;
 use staircase::Staircase;
+use unfold::Unfold;
 
 /// Makes patches for one hole by one method after the other; what several methods share is done once.
 pub(crate) struct PatchMaker<'a> {
     staircase: Staircase<'a>,
     auto: Auto<'a>,
+    unfold: Unfold<'a>,
 }
 
 impl<'a> PatchMaker<'a> {
@@ -27,6 +30,7 @@ impl<'a> PatchMaker<'a> {
         Self {
             staircase: Staircase::new(hole, options, interrupted),
             auto: Auto::new(hole, options, interrupted),
+            unfold: Unfold::new(hole, options, interrupted),
         }
     }
 
@@ -46,6 +50,7 @@ impl<'a> PatchMaker<'a> {
     pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
         match method {
             Method::Auto | Method::Curvature => self.auto.patch(method, &mut self.staircase),
+            Method::UnfoldArea | Method::UnfoldFairing => self.unfold.patch(method),
             _ => self.staircase.patch(method),
         }
     }

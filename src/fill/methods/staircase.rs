@@ -60,8 +60,8 @@ impl<'a> Staircase<'a> {
         let order = match method {
             Method::Flat => return self.triangulate(self.options.exact_limit, EAR_REMAINDER),
             Method::Membrane => Order::One,
-            Method::FairC1 => Order::Two,
-            Method::FairC2 | Method::Auto | Method::Curvature => Order::Three,
+            Method::FairC2 => Order::Three,
+            _ => Order::Two,
         };
         let (mut surface, _) = self.refined()?;
         let mut solver = SpdSolver::new(self.interrupted);

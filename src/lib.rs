@@ -41,14 +41,15 @@ pub use boundary::loops::{BoundaryLoop, BoundaryLoops};
 pub use boundary::select::Selection;
 pub use error::{Error, ErrorKind, Result};
 pub use fill::method::Method;
-pub use fill::options::{FillOptions, Parameter};
+pub use fill::options::{AutoOptions, FillOptions, Parameter};
 pub use fill::pipeline::fill_holes;
 pub use fill::progress::{Progress, ProgressCallback};
-pub use fill::report::{Attempt, FillReport, HoleReport, HoleStatus};
+pub use fill::report::{Attempt, FillReport, HoleReport, HoleStatus, Prediction};
 pub use mesh::attributes::{
     Attribute, AttributeValues, Attributes, ListValues, ScalarType, ScalarValues,
 };
 pub use mesh::defects::{Defect, MeshDefects};
 pub use mesh::trimesh::TriMesh;
+pub use predict::surface::candidates::Candidate;
 pub use quality::deviation;
 pub use triangulate::unfold::{UnfoldOptions, UnfoldSolver, Unfolding, unfold_curve};

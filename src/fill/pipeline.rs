@@ -186,6 +186,7 @@ fn blank_report(l: &BoundaryLoop, kept: &Option<String>) -> HoleReport {
         reason,
         method: None,
         tried: Vec::new(),
+        prediction: None,
         new_vertices: 0..0,
         new_triangles: 0..0,
         self_intersections: 0,

@@ -5,7 +5,7 @@ use super::method::Method;
 use super::options::FillOptions;
 use super::pipeline::HoleLoops;
 use super::plan::{Failure, Plan, Planner, chain};
-use super::report::{Attempt, HoleReport, HoleStatus};
+use super::report::{Attempt, HoleReport, HoleStatus, Prediction};
 use super::verify::check_against_mesh;
 use crate::error::{Error, ErrorKind};
 use crate::math::Vec3;
@@ -37,6 +37,7 @@ pub(super) struct Outcome {
     reason: String,
     tried: Vec<Attempt>,
     filled: Option<Filled>,
+    prediction: Option<Prediction>,
 }
 
 struct Filled {
@@ -247,6 +248,7 @@ impl<'a> Stitcher<'a> {
                 min_angle: plan.min_angle,
             }),
             tried: plan.tried,
+            prediction: plan.prediction,
         }
     }
 }
@@ -262,6 +264,7 @@ impl Outcome {
             reason: error.to_string(),
             tried,
             filled: None,
+            prediction: None,
         }
     }
 
@@ -278,6 +281,7 @@ impl Outcome {
         }
         report.tried.clone_from(&self.tried);
         report.seconds = seconds;
+        report.prediction.clone_from(&self.prediction);
         if let Some(filled) = &self.filled {
             report.method = Some(filled.method);
             report.new_vertices = filled.new_vertices.clone();

@@ -1,18 +1,22 @@
 //! The methods: each makes a patch from the shape of a hole, whatever happens to the patch afterwards.
 
+mod auto;
 mod staircase;
 mod unfold;
 
 use super::method::Method;
 use super::options::FillOptions;
 use crate::error::Result;
+use crate::fill::report::Prediction;
 use crate::patch::{HoleShape, PatchSurface};
+use auto::Auto;
 use staircase::Staircase;
 use unfold::Unfold;
 
 /// Makes patches for one hole by one method after the other; what several methods share is done once.
 pub(crate) struct PatchMaker<'a> {
     staircase: Staircase<'a>,
+    auto: Auto<'a>,
     unfold: Unfold<'a>,
 }
 
@@ -25,13 +29,18 @@ impl<'a> PatchMaker<'a> {
     ) -> Self {
         Self {
             staircase: Staircase::new(hole, options, interrupted),
+            auto: Auto::new(hole, options, interrupted),
             unfold: Unfold::new(hole, options, interrupted),
         }
     }
 
     /// Rings of triangles round the hole that `method` and those it falls back to read.
     pub(crate) fn ring_count(method: Method) -> u32 {
-        if method == Method::FairC2 { 2 } else { 1 }
+        match method {
+            Method::Auto | Method::Curvature => auto::RINGS,
+            Method::FairC2 => 2,
+            _ => 1,
+        }
     }
 
     /// The patch of `method` in the hole's coordinates. It is not verified yet.
@@ -40,8 +49,14 @@ impl<'a> PatchMaker<'a> {
     /// Those of the method, and [`crate::ErrorKind::Cancelled`].
     pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
         match method {
+            Method::Auto | Method::Curvature => self.auto.patch(method, &mut self.staircase),
             Method::UnfoldArea | Method::UnfoldFairing => self.unfold.patch(method),
             _ => self.staircase.patch(method),
         }
+    }
+
+    /// How the surface was predicted, if a method did so.
+    pub(crate) fn prediction(&self) -> Option<&Prediction> {
+        self.auto.prediction()
     }
 }

@@ -1,9 +1,11 @@
 //! Options of a fill, and every parameter by its documented name.
 
+mod auto;
 mod parameter;
 mod staircase;
 mod unfold;
 
+pub use auto::AutoOptions;
 pub use parameter::Parameter;
 
 use super::method::Method;
@@ -41,6 +43,8 @@ pub struct FillOptions {
     pub grading: Option<f64>,
     /// Largest number of new vertices in one hole; default 10,000,000.
     pub max_new_vertices: usize,
+    /// What [`Method::Auto`] and [`Method::Curvature`] do.
+    pub auto: AutoOptions,
     /// How [`Method::UnfoldArea`] and [`Method::UnfoldFairing`] unfold the rim.
     pub unfold: UnfoldOptions,
 }
@@ -57,13 +61,19 @@ impl Default for FillOptions {
             density: 1.0,
             grading: None,
             max_new_vertices: 10_000_000,
+            auto: AutoOptions::default(),
             unfold: UnfoldOptions::default(),
         }
     }
 }
 
 /// The parameters, by the method or stage that they belong to.
-const GROUPS: &[&[Parameter]] = &[FILL, staircase::PARAMETERS, unfold::PARAMETERS];
+const GROUPS: &[&[Parameter]] = &[
+    FILL,
+    auto::PARAMETERS,
+    staircase::PARAMETERS,
+    unfold::PARAMETERS,
+];
 
 const FILL: &[Parameter] = &[
     Parameter {

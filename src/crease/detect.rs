@@ -12,6 +12,7 @@
 
 use super::facets::{Facets, SharedEdge};
 use crate::error::{Error, ErrorKind, Result};
+use crate::math::{Vec3, unit};
 use crate::patch::HoleShape;
 
 /// Smallest angle of a crease, in radians.
@@ -42,9 +43,17 @@ pub(crate) struct Regions {
     pub(crate) faces: Vec<Vec<u32>>,
     /// Region at each edge of the hole's polygon.
     pub(crate) at_rim: Vec<u32>,
-    /// Positions in the polygon where the region changes: the creases' ends. Ascending; position `i` lies between
-    /// edges `i - 1` and `i`.
-    pub(crate) ends: Vec<usize>,
+    /// Where creases end at the rim, in the order of the polygon.
+    pub(crate) ends: Vec<CreaseEnd>,
+}
+
+/// The end of a crease at the rim of a hole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct CreaseEnd {
+    /// Position in the polygon; the crease separates the regions of edge `position - 1` and edge `position`.
+    pub(crate) position: usize,
+    /// Unit vector along the crease, away from the hole.
+    pub(crate) outward: Vec3,
 }
 
 /// Finds the regions round the hole; `None` when nothing but smooth surface surrounds it.
@@ -62,18 +71,21 @@ pub(crate) fn detect(hole: &HoleShape) -> Result<Option<Regions>> {
         return Ok(None);
     }
     let known: Option<Vec<u32>> = at_rim.into_iter().collect();
-    let Some(at_rim) = known else {
+    let Some(at_rim) = known.filter(|_| hole.polygon.len() == hole.points.len()) else {
         return unusable("the rim has islands or triangles without a neighbour");
     };
     let at_rim: Vec<u32> = at_rim.iter().map(|&f| labels.of_face[f as usize]).collect();
     let len = at_rim.len();
-    let ends: Vec<usize> = (0..len)
-        .filter(|&i| at_rim[(i + len - 1) % len] != at_rim[i])
-        .collect();
-    for &end in &ends {
-        let sides = [at_rim[(end + len - 1) % len], at_rim[end]];
-        let crease = Crease::from_rim(&facets, &labels, hole.polygon[end], sides);
+    let mut ends = Vec::new();
+    for position in 0..len {
+        let sides = [at_rim[(position + len - 1) % len], at_rim[position]];
+        if sides[0] == sides[1] {
+            continue;
+        }
+        let crease = Crease::from_rim(&facets, &labels, hole.polygon[position], sides);
         crease.check()?;
+        let outward = unit(crease.points[1] - crease.points[0]);
+        ends.push(CreaseEnd { position, outward });
     }
     Ok(Some(collect(&facets, &labels, at_rim, ends)))
 }
@@ -201,7 +213,7 @@ impl Labels {
 
 /// The edges between two regions that begin at a rim vertex.
 struct Crease {
-    points: Vec<crate::math::Vec3>,
+    points: Vec<Vec3>,
     /// Length of each edge, and whether the surface is convex there.
     bends: Vec<(f64, bool)>,
 }
@@ -256,7 +268,12 @@ impl Crease {
 }
 
 /// Numbers the regions that touch the rim in the order in which the polygon meets them.
-fn collect(facets: &Facets<'_>, labels: &Labels, at_rim: Vec<u32>, ends: Vec<usize>) -> Regions {
+fn collect(
+    facets: &Facets<'_>,
+    labels: &Labels,
+    at_rim: Vec<u32>,
+    ends: Vec<CreaseEnd>,
+) -> Regions {
     let mut order: Vec<u32> = Vec::new();
     let mut numbers = vec![None; labels.of_face.len()];
     for &label in &at_rim {

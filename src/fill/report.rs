@@ -53,6 +53,12 @@ pub struct Prediction {
     pub noise: f64,
     /// Whether the hole was taken for the missing tip of a horn.
     pub is_tip: bool,
+    /// Number of creases in the patch; when there are any, `chosen` was not used.
+    pub crease_count: usize,
+    /// The surfaces between the creases, in the order in which the rim meets them.
+    pub crease_surfaces: Vec<Candidate>,
+    /// Why creases of the surroundings were not continued; `None` when they were, or when there are none.
+    pub without_creases: Option<String>,
 }
 
 /// What happened to one hole.

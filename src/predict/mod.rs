@@ -1,3 +1,4 @@
 //! Predicts the surface that was there before the hole.
 
+pub(crate) mod creases;
 pub(crate) mod surface;

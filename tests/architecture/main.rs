@@ -37,7 +37,7 @@ const RULES: &[(&str, &[&str])] = &[
     ("fair", &["error", "math", "mesh", "patch"]),
     (
         "predict",
-        &["error", "math", "mesh", "patch", "triangulate"],
+        &["error", "math", "mesh", "patch", "crease", "triangulate"],
     ),
     (
         "fill",

@@ -72,11 +72,19 @@ fn prediction(prediction: &Prediction) -> Value {
         .iter()
         .map(|&(candidate, score)| (candidate.name().to_owned(), score.into()))
         .collect();
+    let crease_surfaces: Vec<&str> = prediction
+        .crease_surfaces
+        .iter()
+        .map(|c| c.name())
+        .collect();
     json!({
         "chosen": prediction.chosen.name(),
         "scores": scores,
         "noise": prediction.noise,
         "is_tip": prediction.is_tip,
+        "creases": prediction.crease_count,
+        "crease_surfaces": crease_surfaces,
+        "without_creases": prediction.without_creases,
     })
 }
 

@@ -4,6 +4,7 @@
 //! not seen ([`choice`]). A faired patch is then marched onto the winner in short steps, refined as it grows, and
 //! blended into the rim. What comes out passes the gates below or is not used: then the simpler methods follow.
 
+use super::creases::Creases;
 use super::staircase::Staircase;
 use crate::error::{Error, ErrorKind, Result};
 use crate::fair::kharmonic::extend_from_rim;
@@ -97,12 +98,21 @@ impl<'a> Auto<'a> {
         staircase.check_interruption()?;
         let is_noisy = samples.is_noisy();
         let (candidate, scores, is_tip) = self.choose(method, &mut samples)?;
+        let smooth_score = choice::score_of(&scores, candidate);
         self.prediction = Some(Prediction {
             chosen: candidate,
             scores,
             noise: samples.noise,
             is_tip,
+            crease_count: 0,
+            crease_surfaces: Vec::new(),
+            without_creases: None,
         });
+        if method == Method::Auto
+            && let Some(patch) = self.patch_with_creases(step, smooth_score)?
+        {
+            return Ok(patch);
+        }
         staircase.check_interruption()?;
         let surface = candidate
             .fit_to_rim(&mut samples)
@@ -132,6 +142,50 @@ impl<'a> Auto<'a> {
 type Chosen = (Candidate, Vec<Score>, bool);
 
 impl Auto<'_> {
+    /// The patch that continues creases across the hole, if there are any and they are good enough; what speaks
+    /// against them is noted in the prediction.
+    fn patch_with_creases(
+        &mut self,
+        step: f64,
+        smooth_score: Option<f64>,
+    ) -> Result<Option<PatchSurface>> {
+        if !self.options.auto.creases {
+            return Ok(None);
+        }
+        let creases = Creases {
+            hole: self.hole,
+            options: self.options,
+            interrupted: self.interrupted,
+            step,
+            smooth_score: smooth_score.unwrap_or(f64::INFINITY),
+        };
+        let found = creases.patch();
+        let Some(prediction) = &mut self.prediction else {
+            return Ok(None);
+        };
+        match found {
+            Ok(Some(patch)) => {
+                prediction.crease_count = patch.count;
+                prediction.crease_surfaces = patch.surfaces;
+                Ok(Some(patch.surface))
+            }
+            Ok(None) => Ok(None),
+            Err(error) if error.kind() == ErrorKind::Cancelled => Err(error),
+            Err(error) => {
+                prediction.without_creases = Some(error.to_string());
+                Ok(None)
+            }
+        }
+    }
+
+    /// Whether the options let a candidate compete.
+    pub(super) fn allows(options: &FillOptions, candidate: Candidate, is_noisy: bool) -> bool {
+        let options = &options.auto;
+        candidate.suits(is_noisy)
+            && (options.primitives || candidate.interpolates())
+            && (options.quintic || candidate != Candidate::Quintic)
+    }
+
     fn choose(&self, method: Method, samples: &mut SampledBand) -> Result<Chosen> {
         let options = &self.options.auto;
         let is_noisy = samples.is_noisy();
@@ -144,9 +198,7 @@ impl Auto<'_> {
         }
         let candidates: Vec<Candidate> = Candidate::ALL
             .into_iter()
-            .filter(|c| c.suits(is_noisy))
-            .filter(|c| options.primitives || c.interpolates())
-            .filter(|c| options.quintic || *c != Candidate::Quintic)
+            .filter(|c| Self::allows(self.options, *c, is_noisy))
             .collect();
         let scores = choice::scores(samples, &candidates);
         let is_tip =
@@ -160,13 +212,13 @@ impl Auto<'_> {
 }
 
 /// Moves patches onto a surface.
-struct Marcher<'a> {
-    hole: &'a HoleShape,
-    surface: &'a dyn Implicit,
+pub(super) struct Marcher<'a> {
+    pub(super) hole: &'a HoleShape,
+    pub(super) surface: &'a dyn Implicit,
     /// Mean edge length at the rim.
-    step: f64,
-    is_tip: bool,
-    interrupted: &'a dyn Fn() -> bool,
+    pub(super) step: f64,
+    pub(super) is_tip: bool,
+    pub(super) interrupted: &'a dyn Fn() -> bool,
 }
 
 impl Marcher<'_> {
@@ -175,7 +227,7 @@ impl Marcher<'_> {
     }
 
     /// Marches from `start` and checks the result against the faired patch.
-    fn patch_from(
+    pub(super) fn patch_from(
         &self,
         start: &PatchSurface,
         faired: &PatchSurface,

@@ -1,6 +1,7 @@
 //! The methods: each makes a patch from the shape of a hole, whatever happens to the patch afterwards.
 
 mod auto;
+mod creases;
 mod staircase;
 mod unfold;
 

@@ -18,6 +18,8 @@ pub struct AutoOptions {
     pub quintic: bool,
     /// Whether missing tips of horns are recognised; default true.
     pub tips: bool,
+    /// Whether creases of the surroundings are continued across the hole; default true.
+    pub creases: bool,
 }
 
 impl Default for AutoOptions {
@@ -28,6 +30,7 @@ impl Default for AutoOptions {
             primitives: true,
             quintic: true,
             tips: true,
+            creases: true,
         }
     }
 }
@@ -77,5 +80,12 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         allowed: "on or off",
         get: |o| switch_name(o.auto.tips),
         set: |o, v| switch(v).map(|v| o.auto.tips = v),
+    },
+    Parameter {
+        name: "auto.creases",
+        help: "creases of the surroundings are continued across the hole",
+        allowed: "on or off",
+        get: |o| switch_name(o.auto.creases),
+        set: |o, v| switch(v).map(|v| o.auto.creases = v),
     },
 ];

@@ -74,6 +74,7 @@ pub(crate) fn detect(hole: &HoleShape) -> Result<Option<Regions>> {
     let Some(at_rim) = known.filter(|_| hole.polygon.len() == hole.points.len()) else {
         return unusable("the rim has islands or triangles without a neighbour");
     };
+    labels.join_across_wedges(&facets, hole, &at_rim, threshold);
     let at_rim: Vec<u32> = at_rim.iter().map(|&f| labels.of_face[f as usize]).collect();
     let len = at_rim.len();
     let mut ends = Vec::new();
@@ -176,6 +177,38 @@ impl Labels {
         labels.len()
     }
 
+    /// Joins regions that meet in a vertex of the rim, with the tip of a third one between them, and are not bent
+    /// against each other there: they continue each other inside the hole.
+    fn join_across_wedges(
+        &mut self,
+        facets: &Facets<'_>,
+        hole: &HoleShape,
+        at_rim: &[u32],
+        threshold: f64,
+    ) {
+        let len = at_rim.len();
+        for i in 0..len {
+            let faces = [at_rim[(i + len - 1) % len], at_rim[i]];
+            let [a, b] = faces.map(|f| self.of_face[f as usize]);
+            if a == b {
+                continue;
+            }
+            let meet = |e: &SharedEdge| {
+                let [x, y] = e.faces.map(|f| self.of_face[f as usize]);
+                ([x, y] == [a, b] || [y, x] == [a, b]) && e.vertices.contains(&hole.polygon[i])
+            };
+            if facets.angle_between(faces) < threshold && !facets.edges.iter().any(meet) {
+                self.rename(b, a);
+            }
+        }
+    }
+
+    fn rename(&mut self, old: u32, new: u32) {
+        for label in self.of_face.iter_mut().filter(|l| **l == old) {
+            *label = new;
+        }
+    }
+
     /// Joins regions at the rim that are too small to be one with the neighbour that they are bent least against.
     fn absorb_small_regions(&mut self, facets: &Facets<'_>, at_rim: &[Option<u32>]) {
         // Each round removes a region.
@@ -201,11 +234,7 @@ impl Labels {
             let Some((_, other)) = outward.min_by(|x, y| x.0.total_cmp(&y.0)) else {
                 return;
             };
-            for label in &mut self.of_face {
-                if *label == small {
-                    *label = other;
-                }
-            }
+            self.rename(small, other);
             // Regions are named by any of their triangles from here on.
         }
     }

@@ -78,7 +78,12 @@ impl<'a> Facets<'a> {
 
     /// The angle between two triangles in radians, as their present normals see it.
     pub(super) fn angle(&self, edge: &SharedEdge) -> f64 {
-        let [n, m] = edge.faces.map(|f| self.normals[f as usize]);
+        self.angle_between(edge.faces)
+    }
+
+    /// The same for triangles that need not be neighbours.
+    pub(super) fn angle_between(&self, faces: [u32; 2]) -> f64 {
+        let [n, m] = faces.map(|f| self.normals[f as usize]);
         2.0 * (0.5 * (n - m).norm()).min(1.0).asin()
     }
 

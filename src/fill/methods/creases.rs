@@ -15,11 +15,16 @@ use crate::math::{Vec3, unit};
 use crate::patch::{HoleShape, PatchSurface, Surroundings};
 use crate::predict::creases::partition::{Face, Partition, partition};
 use crate::predict::creases::region::{RegionSurface, fit_regions};
+use crate::predict::creases::slide::slide_ends;
 use crate::predict::surface::Implicit;
 use crate::predict::surface::candidates::Candidate;
 use crate::quality::Surface;
 use crate::quality::self_intersection::{AppendedPatch, count};
 use crate::quality::spatial::FaceIndex;
+
+/// Cosine of the angle between the known triangle at a rim edge and the face's surface below which the edge lies on
+/// a crease.
+const SAME_REGION: f64 = 0.8;
 
 /// A patch with creases.
 pub(super) struct CreasePatch {
@@ -48,7 +53,7 @@ impl Creases<'_> {
     /// Why creases that were found are not used: [`ErrorKind::Geometry`] and those of the steps;
     /// [`ErrorKind::Cancelled`].
     pub(super) fn patch(&self) -> Result<Option<CreasePatch>> {
-        let Some(regions) = detect(self.hole)? else {
+        let Some(mut regions) = detect(self.hole)? else {
             return Ok(None);
         };
         let allowed =
@@ -59,6 +64,7 @@ impl Creases<'_> {
             return unusable("a smooth surface predicts the surroundings better than creases do");
         }
         let implicit: Vec<&dyn Implicit> = surfaces.iter().map(|s| s.surface.as_ref()).collect();
+        slide_ends(self.hole, &mut regions, &implicit, self.step)?;
         let partition = partition(self.hole, &regions, &implicit, self.step)?;
         let mut surface = PatchSurface {
             rim_count: self.hole.points.len(),
@@ -134,15 +140,17 @@ impl Creases<'_> {
             positions[v as usize] = Some(i);
         }
         let outside_normal = |i: usize| {
+            let middle = (points[i] + points[(i + 1) % len]) / 2.0;
+            let normal = unit(surface.value_and_gradient(&middle).1);
             let ends = [boundary[i], boundary[(i + 1) % len]];
             let [a, b] = ends.map(|v| positions.get(v as usize).copied().flatten());
             if let (Some(a), Some(b)) = (a, b)
                 && (a + 1) % hole.polygon.len() == b
+                && let Some(known) = hole.outside_normals[a]
+                && known.dot(&normal) > SAME_REGION
             {
-                return hole.outside_normals[a];
+                return Some(known);
             }
-            let middle = (points[i] + points[(i + 1) % len]) / 2.0;
-            let normal = unit(surface.value_and_gradient(&middle).1);
             (normal != Vec3::zeros()).then_some(normal)
         };
         let outside_normals = (0..len).map(outside_normal).collect();

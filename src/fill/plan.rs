@@ -7,7 +7,7 @@ use super::method::Method;
 use super::methods::PatchMaker;
 use super::options::FillOptions;
 use super::report::{Attempt, Prediction};
-use super::verify::{FARTHEST, FARTHEST_PREDICTED, check_patch};
+use super::verify::{check_patch, farthest};
 use crate::boundary::loops::BoundaryLoop;
 use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::Vec3;
@@ -148,11 +148,7 @@ impl Planner<'_> {
         method: Method,
     ) -> Result<Candidate> {
         let surface = maker.patch(method)?;
-        let farthest = match method {
-            Method::Auto | Method::Curvature => FARTHEST_PREDICTED,
-            _ => FARTHEST,
-        };
-        check_patch(hole, &surface, farthest, self.interrupted)?;
+        check_patch(hole, &surface, farthest(method), self.interrupted)?;
         proceed_unless(self.interrupted)?;
         let points: Vec<Vec3> = surface.points[surface.rim_count..]
             .iter()

@@ -6,7 +6,7 @@ mod unfold;
 
 use super::method::Method;
 use super::options::FillOptions;
-use crate::error::Result;
+use crate::error::{Error, ErrorKind, Result};
 use crate::fill::report::Prediction;
 use crate::patch::{HoleShape, PatchSurface};
 use auto::Auto;
@@ -51,6 +51,10 @@ impl<'a> PatchMaker<'a> {
         match method {
             Method::Auto | Method::Curvature => self.auto.patch(method, &mut self.staircase),
             Method::UnfoldArea | Method::UnfoldFairing => self.unfold.patch(method),
+            Method::FairC2 if self.auto.is_noisy() => Err(Error::new(
+                ErrorKind::Geometry,
+                "the surroundings are too noisy to read curvature from",
+            )),
             _ => self.staircase.patch(method),
         }
     }

@@ -4,6 +4,7 @@ mod auto;
 mod staircase;
 mod unfold;
 
+use super::hole::HoleReach;
 use super::method::Method;
 use super::options::FillOptions;
 use crate::error::{Error, ErrorKind, Result};
@@ -34,13 +35,13 @@ impl<'a> PatchMaker<'a> {
         }
     }
 
-    /// Rings of triangles round the hole that `method` and those it falls back to read.
-    pub(crate) fn ring_count(method: Method) -> u32 {
-        match method {
+    /// What `method` reads of the mesh round the hole, for those that it falls back to as well.
+    pub(crate) fn reach(method: Method) -> HoleReach {
+        HoleReach::rings(match method {
             Method::Auto | Method::Curvature => auto::RINGS,
             Method::FairC2 => 2,
             _ => 1,
-        }
+        })
     }
 
     /// The patch of `method` in the hole's coordinates. It is not verified yet.

@@ -23,6 +23,7 @@ mod boundary;
 mod crease;
 mod error;
 mod fair;
+pub mod ffi;
 mod fill;
 #[cfg(test)]
 #[path = "../tests/common/meshes.rs"]
@@ -41,10 +42,13 @@ pub use boundary::loops::{BoundaryLoop, BoundaryLoops};
 pub use boundary::select::Selection;
 pub use error::{Error, ErrorKind, Result};
 pub use fill::method::Method;
-pub use fill::options::{AutoOptions, FillOptions, Parameter};
+pub use fill::options::{
+    AttributeOptions, AutoOptions, FillOptions, FilledAttributes, Interpolator, Parameter,
+};
 pub use fill::pipeline::fill_holes;
 pub use fill::progress::{Progress, ProgressCallback};
 pub use fill::report::{Attempt, FillReport, HoleReport, HoleStatus, Prediction};
+pub use fill::session::{FillPlan, FillSession, PlannedPatch, Target};
 pub use mesh::attributes::{
     Attribute, AttributeValues, Attributes, ListValues, ScalarType, ScalarValues,
 };

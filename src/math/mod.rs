@@ -1,9 +1,12 @@
 //! Vectors, planes, boxes, random numbers and the sparse solver: no mesh, no hole.
 
 pub(crate) mod aabb;
+mod background;
 pub(crate) mod box_tree;
+mod envelope;
 pub(crate) mod plane;
 pub(crate) mod random;
+pub(crate) mod segments;
 pub(crate) mod sparse;
 
 /// A point or direction; the type that all geometry is computed in.

@@ -9,7 +9,7 @@ mod values;
 pub(crate) use values::with_scalars;
 pub use values::{ListValues, ScalarType, ScalarValues};
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 
 /// The entries of a column.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,6 +67,22 @@ impl AttributeValues {
         match self {
             Self::Scalars(values) => values.push_copies_of(k..k + 1),
             Self::Lists(lists) => lists.push_copy_of(k),
+        }
+    }
+
+    /// Appends zero, or an empty list.
+    fn push_blank(&mut self) {
+        match self {
+            Self::Scalars(values) => values.push(0.0),
+            Self::Lists(lists) => lists.close_list(),
+        }
+    }
+
+    /// Keeps the first `count` entries.
+    fn truncate(&mut self, count: usize) {
+        match self {
+            Self::Scalars(values) => values.truncate(count),
+            Self::Lists(lists) => lists.truncate(count),
         }
     }
 
@@ -140,15 +156,17 @@ impl Attributes {
     /// Adds a column at the end.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] when there is a column of this name or `values` does not have
+    /// [`crate::ErrorKind::InvalidInput`] when there is a column of this name or `values` does not have
     /// one entry per element; nothing changes then.
     pub fn push(&mut self, name: impl Into<String>, values: AttributeValues) -> Result<()> {
         let name = name.into();
         if self.get(&name).is_some() {
-            return Err(invalid(format!("there are two attributes named {name}")));
+            return Err(Error::invalid(format!(
+                "there are two attributes named {name}"
+            )));
         }
         if values.len() != self.len {
-            return Err(invalid(format!(
+            return Err(Error::invalid(format!(
                 "attribute {name} has {} entries for {} elements",
                 values.len(),
                 self.len
@@ -161,7 +179,7 @@ impl Attributes {
     /// Appends one element per item of `sources`: a copy of that existing element in all columns.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] when a source is not an existing element; nothing changes then.
+    /// [`crate::ErrorKind::InvalidInput`] when a source is not an existing element; nothing changes then.
     pub fn append_copies(&mut self, sources: &[usize]) -> Result<()> {
         self.check_sources(sources)?;
         for column in &mut self.columns {
@@ -176,7 +194,7 @@ impl Attributes {
     /// [`ScalarValues::push`] for the rounding); in a column of lists, a copy of `sources[j]`.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] when a source is not an existing element; nothing changes then.
+    /// [`crate::ErrorKind::InvalidInput`] when a source is not an existing element; nothing changes then.
     pub fn append_with(
         &mut self,
         sources: &[usize],
@@ -203,6 +221,22 @@ impl Attributes {
         Ok(())
     }
 
+    /// Appends `count` elements that are zero, or an empty list, in all columns.
+    pub(crate) fn append_blank(&mut self, count: usize) {
+        for column in &mut self.columns {
+            (0..count).for_each(|_| column.values.push_blank());
+        }
+        self.len += count;
+    }
+
+    /// Keeps the first `len` elements, which must exist.
+    pub(crate) fn truncate(&mut self, len: usize) {
+        self.columns
+            .iter_mut()
+            .for_each(|column| column.values.truncate(len));
+        self.len = len;
+    }
+
     /// Replaces the elements by copies of those in `sources`, in that order.
     pub(crate) fn rearrange(&mut self, sources: &[usize]) -> Result<()> {
         let old_len = self.len;
@@ -217,7 +251,7 @@ impl Attributes {
     fn check_sources(&self, sources: &[usize]) -> Result<()> {
         match sources.iter().find(|&&k| k >= self.len) {
             None => Ok(()),
-            Some(k) => Err(invalid(format!(
+            Some(k) => Err(Error::invalid(format!(
                 "no element {k} among {} to copy from",
                 self.len
             ))),
@@ -232,10 +266,6 @@ impl<'a> IntoIterator for &'a Attributes {
     fn into_iter(self) -> Self::IntoIter {
         self.iter()
     }
-}
-
-fn invalid(message: impl Into<String>) -> Error {
-    Error::new(ErrorKind::InvalidInput, message)
 }
 
 #[cfg(test)]
@@ -300,7 +330,7 @@ mod tests {
             let error = attributes
                 .push(name, scalars(ScalarValues::I32(values)))
                 .unwrap_err();
-            assert_eq!(error.kind(), ErrorKind::InvalidInput);
+            assert_eq!(error.kind(), crate::ErrorKind::InvalidInput);
         }
         assert_eq!(attributes, before);
     }

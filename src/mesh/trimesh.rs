@@ -1,9 +1,9 @@
 //! A triangle mesh that was validated when it was built.
 
-use super::attributes::Attributes;
+use super::attributes::{AttributeValues, Attributes};
 use super::connectivity::Connectivity;
 use super::defects::MeshDefects;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::math::Vec3;
 use rayon::prelude::*;
 
@@ -32,7 +32,7 @@ impl TriMesh {
     /// Builds a mesh without attributes.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] when a coordinate is not finite, a triangle names a vertex that does
+    /// [`crate::ErrorKind::InvalidInput`] when a coordinate is not finite, a triangle names a vertex that does
     /// not exist, or there are more vertices or halfedges than 32-bit indices can name
     /// (about 1 billion triangles).
     ///
@@ -47,7 +47,7 @@ impl TriMesh {
     /// Builds a mesh that carries attributes per vertex and per triangle.
     ///
     /// # Errors
-    /// As [`TriMesh::new`], and [`ErrorKind::InvalidInput`] when the attributes are not as long as
+    /// As [`TriMesh::new`], and [`crate::ErrorKind::InvalidInput`] when the attributes are not as long as
     /// what they belong to.
     pub fn with_attributes(
         positions: Vec<[f64; 3]>,
@@ -90,6 +90,22 @@ impl TriMesh {
     #[must_use]
     pub fn face_attributes(&self) -> &Attributes {
         &self.face_attributes
+    }
+
+    /// Adds a column to the attributes of the vertices.
+    ///
+    /// # Errors
+    /// [`ErrorKind::InvalidInput`] as [`Attributes::push`]; nothing changes then.
+    pub fn add_vertex_attribute(&mut self, name: &str, values: AttributeValues) -> Result<()> {
+        self.vertex_attributes.push(name, values)
+    }
+
+    /// Adds a column to the attributes of the triangles.
+    ///
+    /// # Errors
+    /// [`ErrorKind::InvalidInput`] as [`Attributes::push`]; nothing changes then.
+    pub fn add_face_attribute(&mut self, name: &str, values: AttributeValues) -> Result<()> {
+        self.face_attributes.push(name, values)
     }
 
     /// What was irregular when the mesh was built.
@@ -144,10 +160,18 @@ impl TriMesh {
         self.connectivity.append(&self.triangles, first_face);
         Ok(())
     }
-}
 
-fn invalid(message: String) -> Error {
-    Error::new(ErrorKind::InvalidInput, message)
+    /// Takes back what was appended after the mesh had this many vertices and triangles; the edges that it
+    /// closed are open again.
+    ///
+    /// Both must be numbers that the mesh had at one time after it was built. Cost follows what is removed.
+    pub(crate) fn truncate(&mut self, vertices: usize, triangles: usize) {
+        self.connectivity.truncate(&self.triangles, triangles);
+        self.positions.truncate(vertices);
+        self.triangles.truncate(triangles);
+        self.vertex_attributes.truncate(vertices);
+        self.face_attributes.truncate(triangles);
+    }
 }
 
 fn check_sizes(
@@ -157,7 +181,7 @@ fn check_sizes(
     face_attributes: &Attributes,
 ) -> Result<()> {
     if positions.len() >= u32::MAX as usize || triangles.len() > MOST_TRIANGLES {
-        return Err(invalid(format!(
+        return Err(Error::invalid(format!(
             "{} vertices and {} triangles are more than 32-bit indices can name",
             positions.len(),
             triangles.len()
@@ -168,7 +192,7 @@ fn check_sizes(
         ("face", face_attributes, triangles.len()),
     ] {
         if attributes.len() != expected {
-            return Err(invalid(format!(
+            return Err(Error::invalid(format!(
                 "the {what} attributes have {} entries where {expected} are needed",
                 attributes.len()
             )));
@@ -189,7 +213,7 @@ fn check_finite(positions: &[[f64; 3]]) -> Result<()> {
     match first {
         Some(v) => {
             let [x, y, z] = positions[v];
-            Err(invalid(format!(
+            Err(Error::invalid(format!(
                 "vertex {v} is not finite: ({x}, {y}, {z})"
             )))
         }

@@ -38,7 +38,13 @@ const SETTLED_GROWTH: f64 = 0.01;
 /// Fewer interior vertices than this give a tip no shape: the start is refined once more, to edges shorter by the
 /// factor.
 const FEWEST_INTERIOR: usize = 3;
-const FINER: f64 = 0.6;
+const FINER_TIP: f64 = 0.6;
+/// The same for rims of up to five edges without an interior vertex: refinement splits their edges only above 1.75
+/// target lengths, and a regular pentagon, whose diagonals have 1.62 sides, is a missing vertex with its triangles.
+const FINER_RIM: f64 = 0.8;
+
+/// Smoothings of folded places, at most, each time.
+const MOST_UNFOLDINGS: usize = 20;
 
 /// Gates. Share of triangles whose normal makes a cosine below `FOLDED` with the mean of its vertices' normals, at
 /// most; two triangles are always allowed.
@@ -47,10 +53,15 @@ const FOLDED_SHARE: f64 = 0.03;
 const FOLDED_COUNT: f64 = 2.5;
 /// Area over that of the faired patch, at most, and for tips.
 const AREA_GROWTH: [f64; 2] = [8.0, 40.0];
+/// Distance from the middle of the rim in extents of the rim, at most, and for tips.
+const REACH: [f64; 2] = [3.0, 6.0];
 /// Share of rim edges at which the normals of patch and mesh make a cosine below `BENT`, at most, if the faired patch
 /// has no more.
 const BENT: f64 = 0.3;
 const BENT_SHARE: f64 = 0.1;
+
+/// Noise above which fairing with common curvature amplifies it.
+const TOO_NOISY_FOR_CURVATURE: f64 = 0.06;
 
 /// Candidate of [`Method::Curvature`], and where the surroundings are noisy.
 const UNCHOSEN: [Candidate; 2] = [Candidate::Cubic, Candidate::CubicSmoothed];
@@ -80,6 +91,13 @@ impl<'a> Auto<'a> {
     /// How the surface was predicted, once it was.
     pub(super) fn prediction(&self) -> Option<&Prediction> {
         self.prediction.as_ref()
+    }
+
+    /// Whether the surface was predicted and the surroundings turned out too noisy for second derivatives.
+    pub(super) fn is_noisy(&self) -> bool {
+        self.prediction
+            .as_ref()
+            .is_some_and(|p| p.noise > TOO_NOISY_FOR_CURVATURE)
     }
 
     /// The patch on the predicted surface.
@@ -200,7 +218,7 @@ impl Auto<'_> {
             .into_iter()
             .filter(|c| Self::allows(self.options, *c, is_noisy))
             .collect();
-        let scores = choice::scores(samples, &candidates);
+        let scores = choice::scores(samples, &candidates, self.hole.polygon.len());
         let is_tip =
             options.tips && !choice::is_exact(&scores) && tip::is_tip(self.hole, &samples.band);
         let closing = is_tip.then(|| tip::closing_candidate(&scores)).flatten();
@@ -236,10 +254,18 @@ impl Marcher<'_> {
         let mut patch = start.clone();
         let (_, mut sizes) = staircase.refined()?;
         let rim_count = patch.rim_count;
-        if self.is_tip && patch.points.len() < rim_count + FEWEST_INTERIOR {
-            sizes.iter_mut().for_each(|s| *s *= FINER);
+        let interior = patch.points.len() - rim_count;
+        let finer = if self.is_tip && interior < FEWEST_INTERIOR {
+            FINER_TIP
+        } else if interior == 0 {
+            FINER_RIM
+        } else {
+            1.0
+        };
+        if finer < 1.0 {
+            sizes.iter_mut().for_each(|s| *s *= finer);
             staircase.refine_again(&mut patch, &mut sizes)?;
-            sizes.iter_mut().for_each(|s| *s /= FINER);
+            sizes.iter_mut().for_each(|s| *s /= finer);
         }
         let rim = Aabb::around(&self.hole.points);
         let extent = (rim.hi - rim.lo).max();
@@ -254,6 +280,7 @@ impl Marcher<'_> {
             if !patch.points.iter().flatten().all(|x| x.is_finite()) {
                 return Err(geometry("the patch ran away from the predicted surface"));
             }
+            self.unfold(&mut patch, limit);
             let before = patch.triangles.len() as f64;
             staircase.refine_again(&mut patch, &mut sizes)?;
             let growth = (patch.triangles.len() as f64 - before).abs() / before;
@@ -264,9 +291,48 @@ impl Marcher<'_> {
         for p in &mut patch.points[rim_count..] {
             *p = march::project(self.surface, p, LAST_STEPS, limit);
         }
+        self.unfold(&mut patch, limit);
         self.blend(&mut patch, limit)?;
         self.check(&patch, faired, extent)?;
         Ok(patch)
+    }
+
+    /// Smooths the patch where its triangles turn against the surface, and moves it back onto that.
+    fn unfold(&self, patch: &mut PatchSurface, limit: f64) {
+        let gradient = |p: &Vec3| unit(self.surface.value_and_gradient(p).1);
+        let mut gradients: Vec<Vec3> = patch.points.iter().map(gradient).collect();
+        for _ in 0..MOST_UNFOLDINGS {
+            let mut is_folded = vec![false; patch.points.len()];
+            let mut count = 0;
+            for t in &patch.triangles {
+                let mean: Vec3 = t.iter().map(|&v| gradients[v as usize]).sum();
+                if normal(patch, t).dot(&unit(mean)) < FOLDED {
+                    count += 1;
+                    t.iter().for_each(|&v| is_folded[v as usize] = true);
+                }
+            }
+            if count == 0 {
+                return;
+            }
+            let mut sums = vec![(Vec3::zeros(), 0.0); patch.points.len()];
+            for t in &patch.triangles {
+                for k in 0..3 {
+                    let (v, next) = (t[k] as usize, t[(k + 1) % 3] as usize);
+                    for (at, other) in [(v, next), (next, v)] {
+                        sums[at].0 += patch.points[other];
+                        sums[at].1 += 1.0;
+                    }
+                }
+            }
+            let rim_count = patch.rim_count;
+            for v in rim_count..patch.points.len() {
+                if is_folded[v] {
+                    let middle = sums[v].0 / sums[v].1;
+                    patch.points[v] = march::project(self.surface, &middle, STEPS, limit);
+                    gradients[v] = gradient(&patch.points[v]);
+                }
+            }
+        }
     }
 
     /// Adds to the interior what the rim is off the surface, fading inwards.
@@ -285,7 +351,12 @@ impl Marcher<'_> {
     }
 
     /// The gates.
-    fn check(&self, patch: &PatchSurface, faired: &PatchSurface, _extent: f64) -> Result<()> {
+    fn check(&self, patch: &PatchSurface, faired: &PatchSurface, extent: f64) -> Result<()> {
+        let center = self.hole.points.iter().sum::<Vec3>() / self.hole.points.len().max(1) as f64;
+        let reach = REACH[usize::from(self.is_tip)] * extent;
+        if patch.points.iter().any(|p| (p - center).amax() > reach) {
+            return Err(geometry("the predicted patch runs away from the hole"));
+        }
         if !patch.points.iter().flatten().all(|x| x.is_finite()) {
             return Err(geometry("the predicted patch is not finite"));
         }

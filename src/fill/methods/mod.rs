@@ -5,9 +5,10 @@ mod creases;
 mod staircase;
 mod unfold;
 
+use super::hole::HoleReach;
 use super::method::Method;
 use super::options::FillOptions;
-use crate::error::Result;
+use crate::error::{Error, ErrorKind, Result};
 use crate::fill::report::Prediction;
 use crate::patch::{HoleShape, PatchSurface};
 use auto::Auto;
@@ -35,13 +36,13 @@ impl<'a> PatchMaker<'a> {
         }
     }
 
-    /// Rings of triangles round the hole that `method` and those it falls back to read.
-    pub(crate) fn ring_count(method: Method) -> u32 {
-        match method {
+    /// What `method` reads of the mesh round the hole, for those that it falls back to as well.
+    pub(crate) fn reach(method: Method) -> HoleReach {
+        HoleReach::rings(match method {
             Method::Auto | Method::Curvature => auto::RINGS,
             Method::FairC2 => 2,
             _ => 1,
-        }
+        })
     }
 
     /// The patch of `method` in the hole's coordinates. It is not verified yet.
@@ -52,6 +53,10 @@ impl<'a> PatchMaker<'a> {
         match method {
             Method::Auto | Method::Curvature => self.auto.patch(method, &mut self.staircase),
             Method::UnfoldArea | Method::UnfoldFairing => self.unfold.patch(method),
+            Method::FairC2 if self.auto.is_noisy() => Err(Error::new(
+                ErrorKind::Geometry,
+                "the surroundings are too noisy to read curvature from",
+            )),
             _ => self.staircase.patch(method),
         }
     }

@@ -1,7 +1,6 @@
 //! Numbers, and lists of numbers, of a type that is known at run time.
 
-use super::invalid;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use std::ops::Range;
 
 /// The type of a number in a column.
@@ -166,6 +165,11 @@ impl ScalarValues {
         with_scalars!(self, v => v.extend_from_within(range));
     }
 
+    /// Keeps the first `count` numbers.
+    pub(super) fn truncate(&mut self, count: usize) {
+        with_scalars!(self, v => v.truncate(count));
+    }
+
     /// Removes the first `count` numbers, which must exist.
     pub(super) fn drop_front(&mut self, count: usize) {
         with_scalars!(self, v => drop(v.drain(..count)));
@@ -201,10 +205,12 @@ impl ListValues {
         ends: Vec<usize>,
     ) -> Result<Self> {
         if !count_type.is_integer() {
-            return Err(invalid("the length of a list needs an integer type"));
+            return Err(Error::invalid("the length of a list needs an integer type"));
         }
         if !ends.is_sorted() || ends.last().copied().unwrap_or(0) != items.len() {
-            return Err(invalid("the ends of the lists do not match their items"));
+            return Err(Error::invalid(
+                "the ends of the lists do not match their items",
+            ));
         }
         Ok(Self {
             count_type,
@@ -259,6 +265,12 @@ impl ListValues {
             self.items.push_copies_of(range);
             self.close_list();
         }
+    }
+
+    /// Keeps the first `count` lists.
+    pub(super) fn truncate(&mut self, count: usize) {
+        self.ends.truncate(count);
+        self.items.truncate(self.ends.last().copied().unwrap_or(0));
     }
 
     /// Removes the first `count` lists, which must exist.

@@ -8,7 +8,9 @@ use super::primitives::{cone::Cone, cylinder::Cylinder, torus::Torus};
 use super::samples::SampledBand;
 use super::{Implicit, Sample};
 
-/// Most samples of an interpolating function: its cost grows with the cube, its accuracy does not grow any more.
+/// Most samples of an interpolating function that is scored, and of one that is used: the cost grows with the cube,
+/// the accuracy little.
+const MOST_SCORED_CENTERS: usize = 80;
 const MOST_CENTERS: usize = 140;
 /// Most samples of a surface with few degrees of freedom, algebraic or found by iteration.
 const MOST_LINEAR_SAMPLES: usize = 300;
@@ -50,14 +52,14 @@ pub enum Candidate {
 impl Candidate {
     /// All candidates, in the order in which they are scored: those that rule others out come first.
     pub const ALL: [Self; 11] = [
+        Self::Quadric,
+        Self::Plane,
+        Self::Sphere,
+        Self::Cyclide,
         Self::Cubic,
         Self::Quintic,
         Self::CubicSmoothed,
         Self::CubicRidge,
-        Self::Cyclide,
-        Self::Quadric,
-        Self::Plane,
-        Self::Sphere,
         Self::Cylinder,
         Self::Cone,
         Self::Torus,
@@ -123,11 +125,11 @@ impl Candidate {
         }
     }
 
-    /// Most samples that a fit uses.
+    /// Most samples that a fit uses when it is scored.
     pub(crate) fn most_samples(self) -> usize {
         match self {
             Self::Cylinder | Self::Cone | Self::Torus => MOST_ITERATED_SAMPLES,
-            _ if self.interpolates() => MOST_CENTERS,
+            _ if self.interpolates() => MOST_SCORED_CENTERS,
             _ => MOST_LINEAR_SAMPLES,
         }
     }
@@ -178,7 +180,12 @@ impl Candidate {
             Self::Cubic | Self::Quintic => LAST_CENTER_LEVEL,
             _ => FITTED_RINGS,
         };
-        let vertices = samples.spread(0..last + 1, self.most_samples());
+        let most = if self.interpolates() {
+            MOST_CENTERS
+        } else {
+            self.most_samples()
+        };
+        let vertices = samples.spread(0..last + 1, most);
         self.fit(samples, &vertices)
     }
 }

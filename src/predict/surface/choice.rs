@@ -16,8 +16,8 @@ use super::candidates::Candidate;
 use super::samples::SampledBand;
 use super::{Implicit, march};
 
-/// Widths of the bands that are left out, in rings, and of those that are fitted.
-const LEFT_OUT: [u32; 3] = [1, 2, 3];
+/// Widest band that is left out, in rings, and that which is fitted.
+const MOST_LEFT_OUT: u32 = 3;
 pub(crate) const FITTED_RINGS: u32 = 3;
 /// Rings of the surroundings that the choice reads.
 pub(crate) const RINGS: u32 = 9;
@@ -39,6 +39,9 @@ const NOISY_TOLERANCE: f64 = 1.12;
 /// it overshoots where the surface has detail.
 const QUINTIC_FACTOR: [f64; 2] = [0.95, 0.6];
 const SMOOTH: f64 = 0.01;
+/// On rims with more edges than this it must beat it by more, in proportion: functions that grow faster are trusted
+/// less far. The middle of such a hole is eight times as many rings away as the widest band that is left out.
+const WIDE_RIM: f64 = 150.0;
 /// A costly candidate is fitted only when the one that contains or approximates it scores within this factor of the
 /// best so far.
 const GATE_FACTOR: f64 = 2.0;
@@ -46,22 +49,40 @@ const GATE_FACTOR: f64 = 2.0;
 /// A candidate with its score in rim edge lengths; smaller is better.
 pub(crate) type Score = (Candidate, f64);
 
-/// Scores of all candidates that were fitted, in the order of fitting.
-pub(crate) fn scores(samples: &mut SampledBand, candidates: &[Candidate]) -> Vec<Score> {
+/// Rim edges per ring of a hole: a rim of six edges round each vertex is one ring away from its middle, one of twelve
+/// two.
+const EDGES_PER_RING: usize = 6;
+
+/// Scores of the candidates that were fitted, in the order of fitting. Left out are bands up to the width of the
+/// hole, at most three rings.
+///
+/// Once a candidate is as good as exact, those with more freedom are not tried any more.
+pub(crate) fn scores(
+    samples: &mut SampledBand,
+    candidates: &[Candidate],
+    rim_edges: usize,
+) -> Vec<Score> {
+    let widest = (rim_edges.div_ceil(EDGES_PER_RING) as u32).clamp(1, MOST_LEFT_OUT);
     let mut scores: Vec<Score> = Vec::new();
     for &candidate in candidates {
         let best = scores.iter().map(|s| s.1).fold(f64::INFINITY, f64::min);
+        let is_settled = scores
+            .iter()
+            .any(|s| s.1 < AS_GOOD_AS_EXACT && s.0.freedom() < candidate.freedom());
+        if is_settled {
+            continue;
+        }
         let gate = candidate.gate().and_then(|gate| score_of(&scores, gate));
         if gate.is_some_and(|score| score > AS_GOOD_AS_EXACT.max(GATE_FACTOR * best)) {
             continue;
         }
-        let mut score = leave_out_score(samples, candidate);
+        let mut score = leave_out_score(samples, candidate, widest);
         if candidate.interpolates() {
             score *= INTERPOLATION_FACTOR;
         }
         if candidate == Candidate::Quintic
             && let Some(cubic) = score_of(&scores, Candidate::Cubic)
-            && score > QUINTIC_FACTOR[usize::from(samples.noise >= SMOOTH)] * cubic
+            && score > quintic_factor(samples.noise, rim_edges) * cubic
         {
             score = score.max(1.01 * cubic);
         }
@@ -70,6 +91,10 @@ pub(crate) fn scores(samples: &mut SampledBand, candidates: &[Candidate]) -> Vec
         }
     }
     scores
+}
+
+fn quintic_factor(noise: f64, rim_edges: usize) -> f64 {
+    QUINTIC_FACTOR[usize::from(noise >= SMOOTH)] * (WIDE_RIM / rim_edges as f64).min(1.0)
 }
 
 /// The score of a candidate, if it has one.
@@ -100,10 +125,10 @@ pub(crate) fn is_exact(scores: &[Score]) -> bool {
 }
 
 /// The geometric mean over the left out bands of the distances to the surface; infinite when nothing could be fitted.
-fn leave_out_score(samples: &mut SampledBand, candidate: Candidate) -> f64 {
+fn leave_out_score(samples: &mut SampledBand, candidate: Candidate, widest: u32) -> f64 {
     let mut logarithms = 0.0;
     let mut count = 0;
-    for r in LEFT_OUT {
+    for r in 1..=widest {
         let vertices = samples.spread(r..r + FITTED_RINGS + 1, candidate.most_samples());
         if vertices.len() < FEWEST_SAMPLES {
             continue;
@@ -122,12 +147,11 @@ fn leave_out_score(samples: &mut SampledBand, candidate: Candidate) -> f64 {
 }
 
 /// Root mean square distance of the vertices below level `r` to the surface, in rim edge lengths.
-fn left_out_distance(samples: &SampledBand, r: u32, surface: &dyn Implicit) -> f64 {
-    let vertices = samples.band.vertices_in(0..r);
-    let stride = vertices.len().div_ceil(MOST_TESTS).max(1);
+fn left_out_distance(samples: &mut SampledBand, r: u32, surface: &dyn Implicit) -> f64 {
+    let vertices = samples.spread(0..r, MOST_TESTS);
     let mut squares = 0.0;
     let mut count = 0.0;
-    for &v in vertices.iter().step_by(stride) {
+    for &v in &vertices {
         let distance = march::distance(surface, &samples.band.points[v as usize]) / samples.step;
         // Not a number counts as far off.
         squares += if distance < FARTHEST {

@@ -6,8 +6,8 @@
 use super::Implicit;
 use crate::math::Vec3;
 
-/// Steps shorter than this share of the limit end the projection.
-const CONVERGED_SHARE: f64 = 1e-9;
+/// A step shorter than this share of the limit ends the projection: Newton's method squares what remains.
+const CONVERGED_SHARE: f64 = 1e-5;
 /// Gradients of the functions are about one at the surface; below this they have no direction.
 const SMALLEST_GRADIENT: f64 = 1e-6;
 

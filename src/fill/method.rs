@@ -8,9 +8,12 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Method {
-    /// The library's choice: at present [`Method::FairC1`].
+    /// Predicts the surface that was there: the surface that continues the surroundings best, chosen among
+    /// primitives and interpolating functions by predicting what is known.
     #[default]
     Auto,
+    /// The same with one interpolating function and no choice.
+    Curvature,
     /// Minimum-weight triangulation of the rim, without new vertices.
     Flat,
     /// Refined to the rim's density, then a membrane: continuous with the surroundings.
@@ -27,8 +30,9 @@ pub enum Method {
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Auto,
+        Self::Curvature,
         Self::Flat,
         Self::Membrane,
         Self::FairC1,
@@ -42,6 +46,7 @@ impl Method {
     pub fn name(self) -> &'static str {
         match self {
             Self::Auto => "auto",
+            Self::Curvature => "curvature",
             Self::Flat => "flat",
             Self::Membrane => "membrane",
             Self::FairC1 => "fair-c1",
@@ -60,7 +65,12 @@ impl Method {
     #[must_use]
     pub fn summary(self) -> &'static str {
         match self {
-            Self::Auto => "the library's choice (at present fair-c1)",
+            Self::Auto => {
+                "predict the surface that was there: the best of many candidates, chosen by what is known"
+            }
+            Self::Curvature => {
+                "continue the surface by a function through the rim's points and normals"
+            }
             Self::Flat => "minimum-weight triangulation of the rim, no new vertices",
             Self::Membrane => {
                 "refine to the rim's density, then a membrane (meets the rim, may crease there)"

@@ -288,6 +288,7 @@ pub(super) fn blank_report(l: &BoundaryLoop, kept: &Option<String>) -> HoleRepor
         cause,
         method: None,
         tried: Vec::new(),
+        prediction: None,
         new_vertices: 0..0,
         new_triangles: 0..0,
         self_intersections: 0,

@@ -7,9 +7,8 @@ use super::index::MeshIndex;
 use super::method::Method;
 use super::methods::PatchMaker;
 use super::options::FillOptions;
-use super::report::Attempt;
-
-use super::verify::check_patch;
+use super::report::{Attempt, Prediction};
+use super::verify::{check_patch, farthest};
 use crate::boundary::loops::BoundaryLoop;
 use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::Vec3;
@@ -31,6 +30,8 @@ pub(crate) struct Plan {
     pub(crate) self_intersections: usize,
     pub(crate) min_angle: f64,
     pub(crate) attributes: CarriedAttributes,
+    /// How the surface was predicted, if a method did so.
+    pub(crate) prediction: Option<Prediction>,
 }
 
 impl Plan {
@@ -68,10 +69,7 @@ pub(crate) fn chain(options: &FillOptions) -> Vec<Method> {
         Method::Membrane,
         Method::Flat,
     ];
-    let first = match options.method {
-        Method::Auto => Method::FairC1,
-        method => method,
-    };
+    let first = options.method;
     let later: &[Method] = match first {
         _ if !options.fallback => &[],
         Method::UnfoldFairing => &[
@@ -171,7 +169,10 @@ impl Planner<'_> {
         if candidate.intersections.total() > 0 {
             tried.remove(position);
         }
-        self.finish(hole, candidate, tried)
+        let prediction = maker.prediction().cloned();
+        let mut plan = self.finish(hole, candidate, tried)?;
+        plan.prediction = prediction;
+        Ok(plan)
     }
 
     fn candidate(
@@ -181,7 +182,7 @@ impl Planner<'_> {
         method: Method,
     ) -> Result<Candidate> {
         let surface = maker.patch(method)?;
-        check_patch(hole, &surface, self.interrupted)?;
+        check_patch(hole, &surface, farthest(method), self.interrupted)?;
         proceed_unless(self.interrupted)?;
         let points: Vec<Vec3> = surface.points[surface.rim_count..]
             .iter()
@@ -241,6 +242,7 @@ impl Planner<'_> {
             self_intersections: intersections.total(),
             min_angle,
             attributes,
+            prediction: None,
         })
     }
 }

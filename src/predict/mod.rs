@@ -1,6 +1,4 @@
 //! Predicts the surface that was there before the hole.
 
-// The pieces are put in place one after the other; the pipeline will use them all.
-#![allow(dead_code)]
-
+pub(crate) mod creases;
 pub(crate) mod surface;

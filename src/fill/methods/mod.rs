@@ -1,19 +1,24 @@
 //! The methods: each makes a patch from the shape of a hole, whatever happens to the patch afterwards.
 
+mod auto;
+mod creases;
 mod staircase;
 mod unfold;
 
 use super::hole::HoleReach;
 use super::method::Method;
 use super::options::FillOptions;
-use crate::error::Result;
+use crate::error::{Error, ErrorKind, Result};
+use crate::fill::report::Prediction;
 use crate::patch::{HoleShape, PatchSurface};
+use auto::Auto;
 use staircase::Staircase;
 pub(super) use unfold::Unfold;
 
 /// Makes patches for one hole by one method after the other; what several methods share is done once.
 pub(crate) struct PatchMaker<'a> {
     staircase: Staircase<'a>,
+    auto: Auto<'a>,
     unfold: Unfold<'a>,
 }
 
@@ -26,13 +31,18 @@ impl<'a> PatchMaker<'a> {
     ) -> Self {
         Self {
             staircase: Staircase::new(hole, options, interrupted),
+            auto: Auto::new(hole, options, interrupted),
             unfold: Unfold::new(hole, options, interrupted),
         }
     }
 
-    /// What `method` reads of the mesh round the hole.
+    /// What `method` reads of the mesh round the hole, for those that it falls back to as well.
     pub(crate) fn reach(method: Method) -> HoleReach {
-        HoleReach::rings(if method == Method::FairC2 { 2 } else { 1 })
+        HoleReach::rings(match method {
+            Method::Auto | Method::Curvature => auto::RINGS,
+            Method::FairC2 => 2,
+            _ => 1,
+        })
     }
 
     /// The patch of `method` in the hole's coordinates. It is not verified yet.
@@ -41,8 +51,18 @@ impl<'a> PatchMaker<'a> {
     /// Those of the method, and [`crate::ErrorKind::Cancelled`].
     pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
         match method {
+            Method::Auto | Method::Curvature => self.auto.patch(method, &mut self.staircase),
             Method::UnfoldArea | Method::UnfoldFairing => self.unfold.patch(method),
+            Method::FairC2 if self.auto.is_noisy() => Err(Error::new(
+                ErrorKind::Geometry,
+                "the surroundings are too noisy to read curvature from",
+            )),
             _ => self.staircase.patch(method),
         }
+    }
+
+    /// How the surface was predicted, if a method did so.
+    pub(crate) fn prediction(&self) -> Option<&Prediction> {
+        self.auto.prediction()
     }
 }

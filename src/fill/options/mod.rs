@@ -1,11 +1,13 @@
 //! Options of a fill, and every parameter by its documented name.
 
 mod attributes;
+mod auto;
 mod parameter;
 mod staircase;
 mod unfold;
 
 pub use attributes::{AttributeOptions, FilledAttributes, Interpolator};
+pub use auto::AutoOptions;
 pub use parameter::Parameter;
 
 use super::method::Method;
@@ -43,6 +45,8 @@ pub struct FillOptions {
     pub grading: Option<f64>,
     /// Largest number of new vertices in one hole; default 10,000,000.
     pub max_new_vertices: usize,
+    /// What [`Method::Auto`] and [`Method::Curvature`] do.
+    pub auto: AutoOptions,
     /// Seconds that a fill may take; holes that are not finished then fail with [`ErrorKind::Limit`] and are as
     /// they were. `None` (the default) sets no limit. Which holes are finished in time depends on the
     /// machine; a patch that is finished is the same as without a limit.
@@ -65,6 +69,7 @@ impl Default for FillOptions {
             density: 1.0,
             grading: None,
             max_new_vertices: 10_000_000,
+            auto: AutoOptions::default(),
             time_budget: None,
             attributes: AttributeOptions::default(),
             unfold: UnfoldOptions::default(),
@@ -75,6 +80,7 @@ impl Default for FillOptions {
 /// The parameters, by the method or stage that they belong to.
 const GROUPS: &[&[Parameter]] = &[
     FILL,
+    auto::PARAMETERS,
     staircase::PARAMETERS,
     unfold::PARAMETERS,
     attributes::PARAMETERS,

@@ -19,16 +19,19 @@ pub enum Method {
     FairC1,
     /// Refined, then faired to meet the surroundings with common curvature.
     FairC2,
+    /// Sections between facing points of the rim, by differential evolution (Xie & Zou 2013).
+    Hpde,
 }
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Auto,
         Self::Flat,
         Self::Membrane,
         Self::FairC1,
         Self::FairC2,
+        Self::Hpde,
     ];
 
     /// The name used on the command line and in reports.
@@ -40,6 +43,7 @@ impl Method {
             Self::Membrane => "membrane",
             Self::FairC1 => "fair-c1",
             Self::FairC2 => "fair-c2",
+            Self::Hpde => "hpde",
         }
     }
 
@@ -54,6 +58,7 @@ impl Method {
             }
             Self::FairC1 => "refine, then fair with a common tangent plane along the rim",
             Self::FairC2 => "refine, then fair with common curvature along the rim",
+            Self::Hpde => "sections between facing points of the rim, by differential evolution",
         }
     }
 }

@@ -3,7 +3,6 @@
 pub(crate) mod aabb;
 pub(crate) mod box_tree;
 pub(crate) mod plane;
-#[allow(dead_code)] // until a method uses it
 pub(crate) mod random;
 pub(crate) mod sparse;
 

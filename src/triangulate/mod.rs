@@ -2,7 +2,6 @@
 
 mod ear_clip;
 mod min_weight;
-#[allow(dead_code)] // until a method uses it
 pub(crate) mod planar;
 mod polygon;
 #[allow(dead_code)]

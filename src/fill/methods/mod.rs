@@ -1,5 +1,6 @@
 //! The methods: each makes a patch from the shape of a hole, whatever happens to the patch afterwards.
 
+mod hpde;
 mod staircase;
 
 use super::method::Method;
@@ -10,6 +11,9 @@ use staircase::Staircase;
 
 /// Makes patches for one hole by one method after the other; what several methods share is done once.
 pub(crate) struct PatchMaker<'a> {
+    hole: &'a HoleShape,
+    options: &'a FillOptions,
+    interrupted: &'a dyn Fn() -> bool,
     staircase: Staircase<'a>,
 }
 
@@ -21,13 +25,20 @@ impl<'a> PatchMaker<'a> {
         interrupted: &'a dyn Fn() -> bool,
     ) -> Self {
         Self {
+            hole,
+            options,
+            interrupted,
             staircase: Staircase::new(hole, options, interrupted),
         }
     }
 
     /// Rings of triangles round the hole that `method` and those it falls back to read.
     pub(crate) fn ring_count(method: Method) -> u32 {
-        if method == Method::FairC2 { 2 } else { 1 }
+        match method {
+            Method::Hpde => hpde::RING_COUNT,
+            Method::FairC2 => 2,
+            Method::Auto | Method::Flat | Method::Membrane | Method::FairC1 => 1,
+        }
     }
 
     /// The patch of `method` in the hole's coordinates. It is not verified yet.
@@ -35,6 +46,9 @@ impl<'a> PatchMaker<'a> {
     /// # Errors
     /// Those of the method, and [`crate::ErrorKind::Cancelled`].
     pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
-        self.staircase.patch(method)
+        match method {
+            Method::Hpde => hpde::patch(self.hole, self.options, self.interrupted),
+            _ => self.staircase.patch(method),
+        }
     }
 }

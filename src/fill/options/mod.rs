@@ -1,5 +1,6 @@
 //! Options of a fill, and every parameter by its documented name.
 
+mod hpde;
 mod parameter;
 mod staircase;
 
@@ -7,6 +8,7 @@ pub use parameter::Parameter;
 
 use super::method::Method;
 use crate::error::{Error, ErrorKind, Result};
+use crate::predict::hpde::options::HpdeOptions;
 use parameter::{switch, switch_name};
 
 /// How holes are filled.
@@ -18,7 +20,7 @@ use parameter::{switch, switch_name};
 pub struct FillOptions {
     /// The method; default [`Method::Auto`].
     pub method: Method,
-    /// Seed of the methods that use random numbers; default 0. The methods of this version use none.
+    /// Seed of the methods that use random numbers; default 0. Used by [`Method::Hpde`].
     pub seed: u64,
     /// Threads that fill holes at the same time; 0 (the default) takes as many as there are processors,
     /// 1 fills them on the calling thread. Intersection tests of patches with more than a few hundred
@@ -39,6 +41,8 @@ pub struct FillOptions {
     pub grading: Option<f64>,
     /// Largest number of new vertices in one hole; default 10,000,000.
     pub max_new_vertices: usize,
+    /// Options of [`Method::Hpde`].
+    pub hpde: HpdeOptions,
 }
 
 impl Default for FillOptions {
@@ -53,12 +57,13 @@ impl Default for FillOptions {
             density: 1.0,
             grading: None,
             max_new_vertices: 10_000_000,
+            hpde: HpdeOptions::default(),
         }
     }
 }
 
 /// The parameters, by the method or stage that they belong to.
-const GROUPS: &[&[Parameter]] = &[FILL, staircase::PARAMETERS];
+const GROUPS: &[&[Parameter]] = &[FILL, staircase::PARAMETERS, hpde::PARAMETERS];
 
 const FILL: &[Parameter] = &[
     Parameter {

@@ -82,7 +82,11 @@ fn fit(points: &[Vec3], center: usize, near: &[u32], normal: Vec3) -> Option<Vec
     if near.len() < UNKNOWNS || normal == Vec3::zeros() {
         return None;
     }
-    let other = if normal.x.abs() < 0.8 { Vec3::x() } else { Vec3::y() };
+    let other = if normal.x.abs() < 0.8 {
+        Vec3::x()
+    } else {
+        Vec3::y()
+    };
     let a = unit(normal.cross(&other));
     let b = normal.cross(&a);
     let local = |&p: &u32| {
@@ -107,7 +111,11 @@ fn fit(points: &[Vec3], center: usize, near: &[u32], normal: Vec3) -> Option<Vec
     let eigen = SymmetricEigen::new(matrix);
     let smallest = eigen.eigenvalues.max() * CONDITION * CONDITION;
     let mut solution = SVector::<f64, UNKNOWNS>::zeros();
-    for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
+    for (value, vector) in eigen
+        .eigenvalues
+        .iter()
+        .zip(eigen.eigenvectors.column_iter())
+    {
         if *value > smallest {
             solution += vector * (vector.dot(&right) / value);
         }

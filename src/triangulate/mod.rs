@@ -11,7 +11,7 @@ mod test_polygons;
 
 pub(crate) use polygon::{HolePolygon, Weight, weight_of};
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::Vec3;
 use ear_clip::Clipped;
 use polygon::ChordRules;
@@ -71,6 +71,7 @@ pub(crate) fn triangulate(
     } else {
         clip_then_search(polygon, options)?
     };
+    proceed_unless(options.interrupted)?;
     let weight = weight_of(polygon, &triangles)?;
     Ok(Triangulation { triangles, weight })
 }
@@ -83,6 +84,7 @@ fn clip_then_search(
     let mut failure = None;
     for doubling in 0..=MAX_REMAINDER_DOUBLINGS {
         let target = options.ear_remainder.max(3).saturating_mul(1 << doubling);
+        proceed_unless(options.interrupted)?;
         let clipped = ear_clip::clip(polygon, &rules, target, options.interrupted)?;
         match search_rest(polygon, &rules, &clipped, options) {
             Ok(rest) => {

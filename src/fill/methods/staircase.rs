@@ -68,7 +68,7 @@ impl<'a> Staircase<'a> {
             }
         };
         let mut surface = self.refined()?;
-        let mut solver = SpdSolver::default();
+        let mut solver = SpdSolver::new(self.interrupted);
         let around = &self.hole.surroundings;
         fair(
             &mut surface,
@@ -81,13 +81,6 @@ impl<'a> Staircase<'a> {
             fair(&mut surface, around, order, Weights::Cotangent, &mut solver)?;
         }
         Ok(surface)
-    }
-
-    fn check_interruption(&self) -> Result<()> {
-        if (self.interrupted)() {
-            return Err(Error::cancelled());
-        }
-        Ok(())
     }
 
     fn triangulate(&self, exact_limit: usize, ear_remainder: usize) -> Result<PatchSurface> {
@@ -133,7 +126,7 @@ impl<'a> Staircase<'a> {
             }
             self.refine(&mut surface, &mut sizes, COARSE_RELAXATIONS)?;
             let around = &self.hole.surroundings;
-            let mut solver = SpdSolver::default();
+            let mut solver = SpdSolver::new(self.interrupted);
             fair(
                 &mut surface,
                 around,
@@ -156,7 +149,6 @@ impl<'a> Staircase<'a> {
         sizes: &mut Vec<f64>,
         final_relaxations: usize,
     ) -> Result<()> {
-        self.check_interruption()?;
         let options = RefineOptions {
             grading: self
                 .options
@@ -167,9 +159,10 @@ impl<'a> Staircase<'a> {
             max_vertices: surface
                 .rim_count
                 .saturating_add(self.options.max_new_vertices),
+            interrupted: self.interrupted,
             ..RefineOptions::default()
         };
         refine(surface, sizes, &options, &|a, b| self.hole.is_joined(a, b))?;
-        self.check_interruption()
+        Ok(())
     }
 }

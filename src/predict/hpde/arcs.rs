@@ -48,7 +48,9 @@ impl Arc {
         if self.angle.abs() < FLAT {
             return Some(self.length * self.angle * share * (1.0 - share));
         }
-        let turned = (self.angle.sin() * (1.0 - 2.0 * share)).clamp(-1.0, 1.0).asin();
+        let turned = (self.angle.sin() * (1.0 - 2.0 * share))
+            .clamp(-1.0, 1.0)
+            .asin();
         Some(self.height(turned))
     }
 
@@ -102,9 +104,8 @@ mod tests {
         for angle in [-2.5, -1.0, -1e-7, 0.0, 1e-4, 0.3, 1.5, 2.0, 2.8] {
             let arc = Arc { length: 3.0, angle };
             let points: Vec<[f64; 2]> = (0..=8).map(|i| arc.at(f64::from(i) / 8.0)).collect();
-            let step = |i: usize| {
-                (points[i + 1][0] - points[i][0]).hypot(points[i + 1][1] - points[i][1])
-            };
+            let step =
+                |i: usize| (points[i + 1][0] - points[i][0]).hypot(points[i + 1][1] - points[i][1]);
             for i in 0..8 {
                 assert!((step(i) - step(0)).abs() < 1e-9, "{angle}: {points:?}");
             }
@@ -134,12 +135,28 @@ mod tests {
                 assert!((arc.above(x).unwrap() - y).abs() < 1e-7, "{angle}");
             }
         }
-        assert_eq!(Arc { length: 2.0, angle: 1.6 }.above(1.0), None);
+        assert_eq!(
+            Arc {
+                length: 2.0,
+                angle: 1.6
+            }
+            .above(1.0),
+            None
+        );
     }
 
     #[test]
     fn the_start_leaves_each_end_along_its_own_arc() {
-        let (first, second) = (Arc { length: 1.0, angle: 0.9 }, Arc { length: 1.0, angle: -0.4 });
+        let (first, second) = (
+            Arc {
+                length: 1.0,
+                angle: 0.9,
+            },
+            Arc {
+                length: 1.0,
+                angle: -0.4,
+            },
+        );
         let profile = profile(&first, &second, 2000);
         let slope = profile.start[0].atan2(profile.x[0]);
         assert!((slope - 0.9).abs() < 5e-3, "{slope}");

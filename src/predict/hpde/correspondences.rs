@@ -52,7 +52,9 @@ pub(super) fn pairs(base: &[BasePoint], smallest_sine: f64) -> Vec<Pair> {
     let (mut first, mut second) = (0, n.saturating_sub(1));
     while first + 2 < second {
         let line = unit(base[second].position - base[first].position);
-        let is_flat = |k: usize| line == Vec3::zeros() || line.cross(&rim_direction(base, k)).norm() < smallest_sine;
+        let is_flat = |k: usize| {
+            line == Vec3::zeros() || line.cross(&rim_direction(base, k)).norm() < smallest_sine
+        };
         let (skip_first, skip_second) = (is_flat(first), is_flat(second));
         if !skip_first && !skip_second {
             pairs.push(Pair { first, second });

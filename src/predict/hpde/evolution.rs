@@ -10,7 +10,7 @@
 
 use super::arcs::Profile;
 use super::options::{DeCrossover, DeMutation, HpdeOptions};
-use crate::error::{Error, Result};
+use crate::error::{Result, proceed_unless};
 use rand::{Rng, RngExt};
 use std::f64::consts::{PI, TAU};
 
@@ -66,9 +66,7 @@ pub(super) fn evolve(
     let mut trial = population[0].clone();
     let mut history = vec![population[best(&population)].objective];
     for _ in 0..options.generations {
-        if interrupted() {
-            return Err(Error::cancelled());
-        }
+        proceed_unless(interrupted)?;
         let best = best(&population);
         for parent in 0..size {
             let mutant = Mutant::new(&population, best, parent, options, random);
@@ -76,11 +74,16 @@ pub(super) fn evolve(
             cross(&mut trial, &mutant, profile, options, random);
             trial.objective = largest_turn(&trial.directions);
             let is_better = trial.objective <= population[parent].objective;
-            next[parent].copy(if is_better { &trial } else { &population[parent] });
+            next[parent].copy(if is_better {
+                &trial
+            } else {
+                &population[parent]
+            });
         }
         std::mem::swap(&mut population, &mut next);
         let objectives = population.iter().map(|i| i.objective);
-        let (low, high) = objectives.fold((f64::INFINITY, 0.0_f64), |(l, h), o| (l.min(o), h.max(o)));
+        let (low, high) =
+            objectives.fold((f64::INFINITY, 0.0_f64), |(l, h), o| (l.min(o), h.max(o)));
         history.push(low);
         if high - low <= CONVERGED * low {
             break;
@@ -124,7 +127,11 @@ impl Individual {
                 (profile.length, 0.0)
             }
         };
-        let (x, y) = if edge == 0 { (0.0, 0.0) } else { point(edge - 1) };
+        let (x, y) = if edge == 0 {
+            (0.0, 0.0)
+        } else {
+            point(edge - 1)
+        };
         let (next_x, next_y) = point(edge);
         self.directions[edge] = (next_y - y).atan2(next_x - x);
     }
@@ -268,5 +275,117 @@ fn cross(
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::arcs::{Arc, profile};
+    use super::*;
+    use crate::math::random::seeded;
+
+    /// A section whose surface rises steeply at one end and slightly at the other.
+    fn section(count: usize) -> Profile {
+        let [first, second] = [1.1, 0.3].map(|angle| Arc { length: 8.0, angle });
+        profile(&first, &second, count)
+    }
+
+    fn run(options: &HpdeOptions, seed: u64) -> Heights {
+        evolve(&section(9), options, &mut seeded(seed, 0), &|| false).unwrap()
+    }
+
+    const VARIANTS: [(DeMutation, DeCrossover); 6] = [
+        (DeMutation::Rand1, DeCrossover::Bin),
+        (DeMutation::Best1, DeCrossover::Bin),
+        (DeMutation::Rand2, DeCrossover::Bin),
+        (DeMutation::Rand1, DeCrossover::Exp),
+        (DeMutation::Best1, DeCrossover::Exp),
+        (DeMutation::Rand2, DeCrossover::Exp),
+    ];
+
+    #[test]
+    fn every_variant_improves_within_the_bounds() {
+        let profile = section(9);
+        for (mutation, crossover) in VARIANTS {
+            let options = HpdeOptions {
+                mutation,
+                crossover,
+                ..HpdeOptions::default()
+            };
+            let found = run(&options, 1);
+            for (j, y) in found.values.iter().enumerate() {
+                assert!(profile.lower[j] <= *y && *y <= profile.upper[j]);
+            }
+            assert!(found.history.windows(2).all(|w| w[1] <= w[0]));
+            let (first, last) = (found.history[0], found.history[found.history.len() - 1]);
+            assert!(last < 0.95 * first, "{mutation:?} {crossover:?}");
+            // The best objective is that of the heights.
+            let again = Individual::new(&profile, found.values).objective;
+            assert!((again - last).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_seed_decides_every_bit() {
+        let options = HpdeOptions::default();
+        let bits = |seed: u64| -> Vec<u64> {
+            let found = run(&options, seed);
+            found.values.iter().map(|y| y.to_bits()).collect()
+        };
+        assert_eq!(bits(5), bits(5));
+        assert_ne!(bits(5), bits(6));
+    }
+
+    #[test]
+    fn two_points_meet_the_smallest_turn_that_a_fine_search_finds() {
+        let profile = section(2);
+        let steps = 600;
+        let mut smallest = f64::INFINITY;
+        for i in 0..=steps {
+            for k in 0..=steps {
+                let at = |j: usize, s: i32| {
+                    let share = f64::from(s) / f64::from(steps);
+                    profile.lower[j] + (profile.upper[j] - profile.lower[j]) * share
+                };
+                let heights = vec![at(0, i), at(1, k)];
+                smallest = smallest.min(Individual::new(&profile, heights).objective);
+            }
+        }
+        let options = HpdeOptions {
+            generations: 400,
+            cr: 0.5,
+            population: 10,
+            ..HpdeOptions::default()
+        };
+        let found = evolve(&profile, &options, &mut seeded(3, 0), &|| false).unwrap();
+        let last = found.history[found.history.len() - 1];
+        assert!(last < 1.002 * smallest, "{last} {smallest}");
+    }
+
+    #[test]
+    fn arcs_that_agree_leave_nothing_to_choose() {
+        let arc = Arc {
+            length: 5.0,
+            angle: 0.4,
+        };
+        let profile = profile(&arc, &arc, 5);
+        let found = evolve(
+            &profile,
+            &HpdeOptions::default(),
+            &mut seeded(0, 0),
+            &|| false,
+        );
+        assert_eq!(found.unwrap().values, profile.start);
+    }
+
+    #[test]
+    fn it_stops_when_asked() {
+        let found = evolve(
+            &section(9),
+            &HpdeOptions::default(),
+            &mut seeded(0, 0),
+            &|| true,
+        );
+        assert_eq!(found.unwrap_err().kind(), crate::ErrorKind::Cancelled);
     }
 }

@@ -208,9 +208,8 @@ impl Scene<'_> {
                 (sum / 3.0).max(LEAST_STEP * self.rim.edge_length)
             });
             let across = unit(a - b);
-            let normal = unit(
-                self.base[section.pair.first].normal + self.base[section.pair.second].normal,
-            );
+            let normal =
+                unit(self.base[section.pair.first].normal + self.base[section.pair.second].normal);
             rows.push(Row {
                 ends: [a, b],
                 across,

@@ -14,8 +14,8 @@ mod correspondences;
 mod evolution;
 mod inside;
 mod layout;
-pub(crate) mod options;
 mod optimize;
+pub(crate) mod options;
 mod rim;
 mod sections;
 mod segmentation;
@@ -237,7 +237,9 @@ fn triangulated<'a>(
         for v in folds.iter().flatten() {
             if let Some(index) = (*v as usize).checked_sub(m) {
                 // Beyond the predicted points are those that split an edge.
-                is_left_out.get_mut(index).map(|left_out| *left_out = true);
+                if let Some(left_out) = is_left_out.get_mut(index) {
+                    *left_out = true;
+                }
             }
         }
         if !is_left_out.contains(&true) {

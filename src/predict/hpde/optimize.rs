@@ -7,7 +7,7 @@
 //! Rim vertices stay where they are and rim edges stay edges. No collapse or swap joins two rim vertices that the
 //! mesh joins already, turns a triangle over or makes the patch non-manifold.
 
-use crate::error::{Error, Result};
+use crate::error::{Result, proceed_unless};
 use crate::math::{Vec3, cross_normal, unit};
 use crate::patch::{HoleShape, PatchSurface};
 use std::collections::BTreeSet;
@@ -298,8 +298,8 @@ impl<'a> Editor<'a> {
         waiting.reverse();
         let mut count = 0;
         while let Some((a, b)) = waiting.pop() {
-            if count % 1024 == 1023 && interrupted() {
-                return Err(Error::cancelled());
+            if count % 1024 == 1023 {
+                proceed_unless(interrupted)?;
             }
             let Some([c, d]) = self.swap(a, b) else {
                 continue;
@@ -333,7 +333,10 @@ impl<'a> Editor<'a> {
             return None;
         }
         let middle = unit(self.normal(old[0]) + self.normal(old[1]));
-        if new.iter().any(|&t| self.normal(t).dot(&middle) < LARGEST_TURN) {
+        if new
+            .iter()
+            .any(|&t| self.normal(t).dot(&middle) < LARGEST_TURN)
+        {
             return None;
         }
         self.replace(k, new[0]);

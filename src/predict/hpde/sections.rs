@@ -8,7 +8,7 @@ use super::base_points::{BasePoint, rim_direction};
 use super::correspondences::Pair;
 use super::evolution::evolve;
 use super::options::{HpdeOptions, HpdeSolver};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::random::seeded;
 use crate::math::{Vec3, unit};
 
@@ -94,7 +94,11 @@ pub(super) fn predict_sections(
         .iter()
         .map(|r| (length(&r.2) / longest * most).floor() as usize + 1)
         .collect();
-    if counts.iter().fold(0, |sum: usize, &c| sum.saturating_add(c)) > most_points {
+    if counts
+        .iter()
+        .fold(0, |sum: usize, &c| sum.saturating_add(c))
+        > most_points
+    {
         let message = format!("the patch would need more than {most_points} new vertices");
         return Err(Error::new(ErrorKind::Limit, message));
     }
@@ -108,9 +112,7 @@ pub(super) fn predict_sections(
                 evolve(&profile, options, &mut random, context.interrupted)?.values
             }
         };
-        if (context.interrupted)() {
-            return Err(Error::cancelled());
-        }
+        proceed_unless(context.interrupted)?;
         let points = profile.x.iter().zip(&heights);
         sections.push(Section {
             pair: *pair,
@@ -166,7 +168,11 @@ fn angles(base: &[BasePoint], pair: Pair, frame: &Frame) -> [Option<f64>; 2] {
         }
         // The patch lies to the left of the rim.
         let into_hole = normal.cross(&rim).dot(&tangent).signum() * tangent;
-        Some(into_hole.dot(&frame.y).atan2(inwards * into_hole.dot(&frame.x)))
+        Some(
+            into_hole
+                .dot(&frame.y)
+                .atan2(inwards * into_hole.dot(&frame.x)),
+        )
     })
 }
 
@@ -188,7 +194,8 @@ fn leave_out_crossing(sections: &mut [Section], edge_length: f64) -> Result<()> 
     }
     let crossing = all - left;
     if crossing as f64 > MOST_CROSSING * all as f64 {
-        let message = format!("the section planes cross: {crossing} of {all} points are out of order");
+        let message =
+            format!("the section planes cross: {crossing} of {all} points are out of order");
         return Err(Error::new(ErrorKind::Geometry, message));
     }
     Ok(())

@@ -100,7 +100,9 @@ pub(super) fn cut(base: &[BasePoint], critical: f64) -> Option<Cut> {
         for i in [-1_isize, 0, 1] {
             for j in [-1_isize, 0, 1] {
                 let moved = |at: usize, by: isize| at.checked_add_signed(by * step as isize);
-                if let (Some(first), Some(second)) = (moved(center.first, i), moved(center.second, j)) {
+                if let (Some(first), Some(second)) =
+                    (moved(center.first, i), moved(center.second, j))
+                {
                     around = consider(first, second);
                 }
             }

@@ -103,7 +103,7 @@ mod tests {
             let n = 20;
             let start = start_of_cut(n, i, j);
             let partner = (2 * start + n - 1 - i) % n;
-            assert_eq!(partner, if (i + j) % 2 == 1 { j } else { j + 1 });
+            assert_eq!(partner, if (i + j) % 2 == 1 { j } else { (j + 1) % n });
         }
     }
 
@@ -116,6 +116,6 @@ mod tests {
         let angle = |p: &Pair| std::f64::consts::PI * (p.second - p.first) as f64 / 40.0;
         assert!(pairs.iter().all(|p| p.first + p.second == 39));
         assert!(pairs.iter().all(|p| angle(p).sin() >= sine));
-        assert_eq!(pairs.len(), 17);
+        assert_eq!(pairs.len(), 18);
     }
 }

@@ -167,7 +167,7 @@ mod tests {
                 let turn = if u > 0.0 { bend.to_radians() } else { 0.0 };
                 base.push(BasePoint {
                     position: Vec3::new(u * turn.cos(), v, -u * turn.sin()),
-                    normal: Vec3::z(),
+                    normal: Vec3::new(turn.sin(), 0.0, turn.cos()),
                     arc: 0.0,
                 });
             }

@@ -53,3 +53,4 @@ pub use predict::hpde::options::{
     DeCrossover, DeMutation, HpdeOptions, HpdeProjection, HpdeSolver, HpdeTangents,
 };
 pub use quality::deviation;
+pub use triangulate::unfold::{UnfoldOptions, UnfoldSolver, Unfolding, unfold_curve};

@@ -21,17 +21,23 @@ pub enum Method {
     FairC2,
     /// Sections between facing points of the rim, by differential evolution (Xie & Zou 2013).
     Hpde,
+    /// The rim unfolded to the plane and triangulated there; refined, of least area.
+    UnfoldArea,
+    /// The rim unfolded to the plane and triangulated there; refined, faired by the second-order umbrella.
+    UnfoldFairing,
 }
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
         Self::Auto,
         Self::Flat,
         Self::Membrane,
         Self::FairC1,
         Self::FairC2,
         Self::Hpde,
+        Self::UnfoldArea,
+        Self::UnfoldFairing,
     ];
 
     /// The name used on the command line and in reports.
@@ -44,6 +50,8 @@ impl Method {
             Self::FairC1 => "fair-c1",
             Self::FairC2 => "fair-c2",
             Self::Hpde => "hpde",
+            Self::UnfoldArea => "unfold-area",
+            Self::UnfoldFairing => "unfold-fairing",
         }
     }
 
@@ -59,6 +67,12 @@ impl Method {
             Self::FairC1 => "refine, then fair with a common tangent plane along the rim",
             Self::FairC2 => "refine, then fair with common curvature along the rim",
             Self::Hpde => "sections between facing points of the rim, by differential evolution",
+            Self::UnfoldArea => {
+                "unfold the rim to the plane, triangulate there; refined, of least area"
+            }
+            Self::UnfoldFairing => {
+                "unfold the rim to the plane, triangulate there; refined and faired"
+            }
         }
     }
 }

@@ -58,15 +58,21 @@ pub(crate) fn chain(options: &FillOptions) -> Vec<Method> {
         Method::Auto => Method::FairC1,
         method => method,
     };
-    let last = if options.fallback { staircase.len() } else { 0 };
-    let later = staircase
-        .iter()
-        .position(|&m| m == first)
-        .map_or(0, |i| i + 1);
-    [first]
-        .into_iter()
-        .chain(staircase[later.min(last)..last].iter().copied())
-        .collect()
+    let later: &[Method] = match first {
+        _ if !options.fallback => &[],
+        Method::UnfoldFairing => &[
+            Method::UnfoldArea,
+            Method::FairC1,
+            Method::Membrane,
+            Method::Flat,
+        ],
+        Method::UnfoldArea => &[Method::Membrane, Method::Flat],
+        _ => {
+            let place = staircase.iter().position(|&m| m == first);
+            &staircase[place.map_or(0, |i| i + 1)..]
+        }
+    };
+    [first].into_iter().chain(later.iter().copied()).collect()
 }
 
 /// What planning needs besides the hole.

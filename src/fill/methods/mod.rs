@@ -2,12 +2,14 @@
 
 mod hpde;
 mod staircase;
+mod unfold;
 
 use super::method::Method;
 use super::options::FillOptions;
 use crate::error::Result;
 use crate::patch::{HoleShape, PatchSurface};
 use staircase::Staircase;
+use unfold::Unfold;
 
 /// Makes patches for one hole by one method after the other; what several methods share is done once.
 pub(crate) struct PatchMaker<'a> {
@@ -15,6 +17,7 @@ pub(crate) struct PatchMaker<'a> {
     options: &'a FillOptions,
     interrupted: &'a dyn Fn() -> bool,
     staircase: Staircase<'a>,
+    unfold: Unfold<'a>,
 }
 
 impl<'a> PatchMaker<'a> {
@@ -29,6 +32,7 @@ impl<'a> PatchMaker<'a> {
             options,
             interrupted,
             staircase: Staircase::new(hole, options, interrupted),
+            unfold: Unfold::new(hole, options, interrupted),
         }
     }
 
@@ -37,7 +41,7 @@ impl<'a> PatchMaker<'a> {
         match method {
             Method::Hpde => hpde::RING_COUNT,
             Method::FairC2 => 2,
-            Method::Auto | Method::Flat | Method::Membrane | Method::FairC1 => 1,
+            _ => 1,
         }
     }
 
@@ -48,6 +52,7 @@ impl<'a> PatchMaker<'a> {
     pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
         match method {
             Method::Hpde => hpde::patch(self.hole, self.options, self.interrupted),
+            Method::UnfoldArea | Method::UnfoldFairing => self.unfold.patch(method),
             _ => self.staircase.patch(method),
         }
     }

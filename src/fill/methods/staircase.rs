@@ -4,7 +4,7 @@
 //! P. Liepa, "Filling holes in meshes", SGP 2003. Unlike there, the patch is refined again while it takes
 //! shape, so that its triangles are as regular on the final surface as they were on the first one.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::Result;
 use crate::fair::kharmonic::{Order, fair};
 use crate::fair::laplacian::Weights;
 use crate::fill::method::Method;
@@ -60,12 +60,8 @@ impl<'a> Staircase<'a> {
         let order = match method {
             Method::Flat => return self.triangulate(self.options.exact_limit, EAR_REMAINDER),
             Method::Membrane => Order::One,
-            Method::Auto | Method::FairC1 => Order::Two,
             Method::FairC2 => Order::Three,
-            Method::Hpde => {
-                let message = format!("{method} does not refine and fair");
-                return Err(Error::new(ErrorKind::InvalidInput, message));
-            }
+            _ => Order::Two,
         };
         let mut surface = self.refined()?;
         let mut solver = SpdSolver::new(self.interrupted);

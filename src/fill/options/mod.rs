@@ -3,12 +3,14 @@
 mod hpde;
 mod parameter;
 mod staircase;
+mod unfold;
 
 pub use parameter::Parameter;
 
 use super::method::Method;
 use crate::error::{Error, ErrorKind, Result};
 use crate::predict::hpde::options::HpdeOptions;
+use crate::triangulate::unfold::UnfoldOptions;
 use parameter::{switch, switch_name};
 
 /// How holes are filled.
@@ -20,7 +22,7 @@ use parameter::{switch, switch_name};
 pub struct FillOptions {
     /// The method; default [`Method::Auto`].
     pub method: Method,
-    /// Seed of the methods that use random numbers; default 0. Used by [`Method::Hpde`].
+    /// Seed of the methods that use random numbers; default 0.
     pub seed: u64,
     /// Threads that fill holes at the same time; 0 (the default) takes as many as there are processors,
     /// 1 fills them on the calling thread. Intersection tests of patches with more than a few hundred
@@ -43,6 +45,8 @@ pub struct FillOptions {
     pub max_new_vertices: usize,
     /// Options of [`Method::Hpde`].
     pub hpde: HpdeOptions,
+    /// How [`Method::UnfoldArea`] and [`Method::UnfoldFairing`] unfold the rim.
+    pub unfold: UnfoldOptions,
 }
 
 impl Default for FillOptions {
@@ -58,12 +62,18 @@ impl Default for FillOptions {
             grading: None,
             max_new_vertices: 10_000_000,
             hpde: HpdeOptions::default(),
+            unfold: UnfoldOptions::default(),
         }
     }
 }
 
 /// The parameters, by the method or stage that they belong to.
-const GROUPS: &[&[Parameter]] = &[FILL, staircase::PARAMETERS, hpde::PARAMETERS];
+const GROUPS: &[&[Parameter]] = &[
+    FILL,
+    staircase::PARAMETERS,
+    hpde::PARAMETERS,
+    unfold::PARAMETERS,
+];
 
 const FILL: &[Parameter] = &[
     Parameter {

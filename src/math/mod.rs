@@ -4,6 +4,7 @@ pub(crate) mod aabb;
 pub(crate) mod box_tree;
 pub(crate) mod plane;
 pub(crate) mod random;
+pub(crate) mod segments;
 pub(crate) mod sparse;
 
 /// A point or direction; the type that all geometry is computed in.

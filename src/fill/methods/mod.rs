@@ -4,6 +4,7 @@ mod hpde;
 mod staircase;
 mod unfold;
 
+use super::hole::HoleReach;
 use super::method::Method;
 use super::options::FillOptions;
 use crate::error::Result;
@@ -36,13 +37,13 @@ impl<'a> PatchMaker<'a> {
         }
     }
 
-    /// Rings of triangles round the hole that `method` and those it falls back to read.
-    pub(crate) fn ring_count(method: Method) -> u32 {
-        match method {
+    /// What `method` reads of the mesh round the hole.
+    pub(crate) fn reach(method: Method) -> HoleReach {
+        HoleReach::rings(match method {
             Method::Hpde => hpde::RING_COUNT,
             Method::FairC2 => 2,
             _ => 1,
-        }
+        })
     }
 
     /// The patch of `method` in the hole's coordinates. It is not verified yet.

@@ -1,17 +1,19 @@
 //! Options of a fill, and every parameter by its documented name.
 
+mod attributes;
 mod hpde;
 mod parameter;
 mod staircase;
 mod unfold;
 
+pub use attributes::{AttributeOptions, FilledAttributes, Interpolator};
 pub use parameter::Parameter;
 
 use super::method::Method;
 use crate::error::{Error, ErrorKind, Result};
 use crate::predict::hpde::options::HpdeOptions;
 use crate::triangulate::unfold::UnfoldOptions;
-use parameter::{switch, switch_name};
+use parameter::{number, switch, switch_name};
 
 /// How holes are filled.
 ///
@@ -45,6 +47,12 @@ pub struct FillOptions {
     pub max_new_vertices: usize,
     /// Options of [`Method::Hpde`].
     pub hpde: HpdeOptions,
+    /// Seconds that a fill may take; holes that are not finished then fail with [`ErrorKind::Limit`] and are as
+    /// they were. `None` (the default) sets no limit. Which holes are finished in time depends on the
+    /// machine; a patch that is finished is the same as without a limit.
+    pub time_budget: Option<f64>,
+    /// How the attributes of new vertices are made.
+    pub attributes: AttributeOptions,
     /// How [`Method::UnfoldArea`] and [`Method::UnfoldFairing`] unfold the rim.
     pub unfold: UnfoldOptions,
 }
@@ -62,6 +70,8 @@ impl Default for FillOptions {
             grading: None,
             max_new_vertices: 10_000_000,
             hpde: HpdeOptions::default(),
+            time_budget: None,
+            attributes: AttributeOptions::default(),
             unfold: UnfoldOptions::default(),
         }
     }
@@ -73,6 +83,7 @@ const GROUPS: &[&[Parameter]] = &[
     staircase::PARAMETERS,
     hpde::PARAMETERS,
     unfold::PARAMETERS,
+    attributes::PARAMETERS,
 ];
 
 const FILL: &[Parameter] = &[
@@ -89,6 +100,23 @@ const FILL: &[Parameter] = &[
         allowed: "on or off",
         get: |o| switch_name(o.join_islands),
         set: |o, v| switch(v).map(|v| o.join_islands = v),
+    },
+    Parameter {
+        name: "fill.time-budget",
+        help: "seconds after which holes that are not finished are given up",
+        allowed: "none, or a number of seconds from 0 to 1000000000",
+        get: |o| {
+            o.time_budget
+                .map_or_else(|| "none".to_owned(), |t| t.to_string())
+        },
+        set: |o, v| {
+            o.time_budget = if v == "none" {
+                None
+            } else {
+                Some(number(v, 0.0, 1e9)?)
+            };
+            Some(())
+        },
     },
 ];
 

@@ -31,6 +31,7 @@ mod math;
 mod mesh;
 mod patch;
 mod quality;
+mod reconstruct;
 mod refine;
 mod triangulate;
 
@@ -49,3 +50,4 @@ pub use mesh::attributes::{
 pub use mesh::defects::{Defect, MeshDefects};
 pub use mesh::trimesh::TriMesh;
 pub use quality::deviation;
+pub use reconstruct::{PointCloud, PointOptions, PointReport, mesh_from_points};

@@ -30,6 +30,7 @@ pub mod io;
 mod math;
 mod mesh;
 mod patch;
+mod predict;
 mod quality;
 mod reconstruct;
 mod refine;

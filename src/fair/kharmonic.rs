@@ -19,7 +19,7 @@
 //! Not guaranteed: that the result has no self-intersection, nor that it stays near the rim.
 
 use super::laplacian::{Domain, Weights};
-use crate::error::Result;
+use crate::error::{Result, proceed_unless};
 use crate::math::Vec3;
 use crate::math::sparse::{SpdSolver, SymmetricMatrix};
 use crate::patch::{PatchSurface, Surroundings};
@@ -35,10 +35,15 @@ pub(crate) enum Order {
     Three = 3,
 }
 
-/// Moves the interior vertices of `surface` to the minimum of the energy.
+/// Columns assembled between two questions whether to go on.
+const COLUMNS_PER_CHECK: usize = 1 << 11;
+
+/// Moves the interior vertices of `surface` to the minimum of the energy. `solver` knows whom to ask whether to
+/// go on.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Solver`] when the system cannot be solved; `surface` is then unchanged.
+/// [`crate::ErrorKind::Solver`] when the system cannot be solved, [`crate::ErrorKind::Cancelled`]; `surface` is then
+/// unchanged.
 ///
 /// # Complexity
 /// That of one sparse Cholesky factorisation in the number of interior vertices `n`: about `n^1.5`.
@@ -47,16 +52,23 @@ pub(crate) fn fair(
     surroundings: &Surroundings,
     order: Order,
     weights: Weights,
-    solver: &mut SpdSolver,
+    solver: &mut SpdSolver<'_>,
 ) -> Result<()> {
     let interior = surface.points.len() - surface.rim_count;
     if interior == 0 {
         return Ok(());
     }
-    let domain = Domain::new(surface, surroundings, order as u32 - 1, weights);
+    let interrupted = solver.interrupted();
+    let domain = Domain::new(
+        surface,
+        surroundings,
+        order as u32 - 1,
+        weights,
+        interrupted,
+    )?;
     let (matrix, right_side) = match order {
-        Order::One => membrane_equations(&domain, &domain.points[..domain.rim_count]),
-        _ => Operator::new(&domain, order).normal_equations(),
+        Order::One => membrane_equations(&domain, &domain.points[..domain.rim_count], interrupted)?,
+        _ => Operator::new(&domain, order).normal_equations(interrupted)?,
     };
     let solution = solver.solve(matrix, &right_side)?;
     surface.points[surface.rim_count..].copy_from_slice(&solution);
@@ -71,10 +83,12 @@ pub(crate) fn fair(
 pub(crate) fn extend_from_rim(
     surface: &PatchSurface,
     rim_values: &[Vec3],
-    solver: &mut SpdSolver,
+    solver: &mut SpdSolver<'_>,
 ) -> Result<Vec<Vec3>> {
-    let domain = Domain::new(surface, &Surroundings::default(), 0, Weights::Uniform);
-    let (matrix, right_side) = membrane_equations(&domain, rim_values);
+    let interrupted = solver.interrupted();
+    let around = Surroundings::default();
+    let domain = Domain::new(surface, &around, 0, Weights::Uniform, interrupted)?;
+    let (matrix, right_side) = membrane_equations(&domain, rim_values, interrupted)?;
     solver.solve(matrix, &right_side)
 }
 
@@ -146,7 +160,10 @@ impl<'a> Operator<'a> {
     }
 
     /// Matrix and right-hand side over the interior vertices.
-    fn normal_equations(&self) -> (SymmetricMatrix, Vec<Vec3>) {
+    fn normal_equations(
+        &self,
+        interrupted: &dyn Fn() -> bool,
+    ) -> Result<(SymmetricMatrix, Vec<Vec3>)> {
         let domain = self.domain;
         let mut fixed = vec![Vec3::zeros(); domain.vertex_count()];
         for v in self.fixed_vertices() {
@@ -166,6 +183,9 @@ impl<'a> Operator<'a> {
         let mut right_side = Vec::with_capacity(domain.patch_count - domain.rim_count);
         let mut column: Vec<(u32, f64)> = Vec::new();
         for v in domain.rim_count..domain.patch_count {
+            if v.is_multiple_of(COLUMNS_PER_CHECK) {
+                proceed_unless(interrupted)?;
+            }
             self.weighted_column(v, &mut scratch);
             scratch.c.clear();
             let mut sum = Vec3::zeros();
@@ -190,7 +210,7 @@ impl<'a> Operator<'a> {
             }
             matrix.column_starts.push(matrix.rows.len() as u32);
         }
-        (matrix, right_side)
+        Ok((matrix, right_side))
     }
 
     /// `out += factor * L[row, i]` for the interior vertices `i >= from`.
@@ -215,13 +235,20 @@ impl<'a> Operator<'a> {
 }
 
 /// Matrix and right-hand side of the membrane over the interior vertices.
-fn membrane_equations(domain: &Domain, rim_values: &[Vec3]) -> (SymmetricMatrix, Vec<Vec3>) {
+fn membrane_equations(
+    domain: &Domain,
+    rim_values: &[Vec3],
+    interrupted: &dyn Fn() -> bool,
+) -> Result<(SymmetricMatrix, Vec<Vec3>)> {
     let mut matrix = SymmetricMatrix {
         column_starts: vec![0],
         ..SymmetricMatrix::default()
     };
     let mut right_side = Vec::with_capacity(domain.patch_count - domain.rim_count);
     for v in domain.rim_count..domain.patch_count {
+        if v.is_multiple_of(COLUMNS_PER_CHECK) {
+            proceed_unless(interrupted)?;
+        }
         let diagonal_at = matrix.values.len();
         matrix.rows.push((v - domain.rim_count) as u32);
         matrix.values.push(0.0);
@@ -240,7 +267,7 @@ fn membrane_equations(domain: &Domain, rim_values: &[Vec3]) -> (SymmetricMatrix,
         right_side.push(sum);
         matrix.column_starts.push(matrix.rows.len() as u32);
     }
-    (matrix, right_side)
+    Ok((matrix, right_side))
 }
 
 struct Scratch {

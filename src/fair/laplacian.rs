@@ -4,6 +4,7 @@
 //! Experimental Mathematics 2(1), 1993 (cotangent weights); lumped areas as in M. Botsch, L. Kobbelt,
 //! "An intuitive framework for real-time freeform modeling", ACM TOG 23(3), 2004.
 
+use crate::error::{Result, proceed_unless};
 use crate::math::{Vec3, cross_normal};
 use crate::patch::{PatchSurface, Surroundings};
 
@@ -12,6 +13,9 @@ use crate::patch::{PatchSurface, Surroundings};
 const LARGEST_COTANGENT: f64 = 100.0;
 /// Vertex areas are at least this share of the mean one, so that a sliver does not outweigh everything.
 const SMALLEST_AREA_SHARE: f64 = 1e-3;
+
+/// Triangles or rows assembled between two questions whether to go on.
+const ROWS_PER_CHECK: usize = 1 << 13;
 
 /// Edge weights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,12 +54,16 @@ pub(crate) struct Domain {
 
 impl Domain {
     /// Joins the patch to the rings of its surroundings below `ring_count`.
+    ///
+    /// # Errors
+    /// `Cancelled` when `interrupted`, which is asked from time to time, returns true.
     pub(crate) fn new(
         surface: &PatchSurface,
         surroundings: &Surroundings,
         ring_count: u32,
         weights: Weights,
-    ) -> Self {
+        interrupted: &dyn Fn() -> bool,
+    ) -> Result<Self> {
         let patch_count = surface.points.len();
         let shift = (patch_count - surface.rim_count) as u32;
         let rim_count = surface.rim_count;
@@ -95,8 +103,8 @@ impl Domain {
             triangles,
             levels,
         };
-        domain.assemble(weights);
-        domain
+        domain.assemble(weights, interrupted)?;
+        Ok(domain)
     }
 
     /// Number of vertices.
@@ -109,7 +117,7 @@ impl Domain {
         &self.entries[self.row_starts[vertex] as usize..self.row_starts[vertex + 1] as usize]
     }
 
-    fn assemble(&mut self, weights: Weights) {
+    fn assemble(&mut self, weights: Weights, interrupted: &dyn Fn() -> bool) -> Result<()> {
         let count = self.vertex_count();
         let mut starts = vec![0_u32; count + 1];
         for t in &self.triangles {
@@ -126,7 +134,10 @@ impl Domain {
             weight: 0.0,
         };
         let mut half_edges = vec![zero; 6 * self.triangles.len()];
-        for t in &self.triangles {
+        for (i, t) in self.triangles.iter().enumerate() {
+            if i % ROWS_PER_CHECK == ROWS_PER_CHECK - 1 {
+                proceed_unless(interrupted)?;
+            }
             let (cotangents, area) = match weights {
                 Weights::Uniform => ([1.0; 3], 0.0),
                 Weights::Cotangent => cotangents_and_area(t.map(|v| &self.points[v as usize])),
@@ -146,6 +157,9 @@ impl Domain {
         }
         self.row_starts.push(0);
         for v in 0..count {
+            if v % ROWS_PER_CHECK == ROWS_PER_CHECK - 1 {
+                proceed_unless(interrupted)?;
+            }
             let row = &mut half_edges[starts[v] as usize..starts[v + 1] as usize];
             row.sort_by_key(|e| e.column);
             for same in row.chunk_by(|a, b| a.column == b.column) {
@@ -170,6 +184,7 @@ impl Domain {
                 }
             }
         }
+        Ok(())
     }
 }
 

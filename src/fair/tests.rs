@@ -186,7 +186,8 @@ fn the_result_has_the_least_energy() {
             for weights in WEIGHTS {
                 let out = faired(&start, &around, order, weights);
                 // The weights are those of the shape before.
-                let domain = Domain::new(&start, &around, order as u32 - 1, weights);
+                let domain =
+                    Domain::new(&start, &around, order as u32 - 1, weights, &|| false).unwrap();
                 let least = energy(&domain, order, &out.points);
                 assert!(least < energy(&domain, order, &start.points));
                 for seed in 0..20 {

@@ -10,12 +10,12 @@ use super::report::Attempt;
 
 use super::verify::check_patch;
 use crate::boundary::loops::BoundaryLoop;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::Vec3;
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::PatchSurface;
 use crate::quality::Surface;
-use crate::quality::self_intersection::{AppendedPatch, SelfIntersections, count};
+use crate::quality::self_intersection::{AppendedPatch, SelfIntersections, count_unless};
 use crate::quality::shape::smallest_angle;
 use crate::quality::spatial::FaceIndex;
 
@@ -141,7 +141,8 @@ impl Planner<'_> {
         method: Method,
     ) -> Result<Candidate> {
         let surface = maker.patch(method)?;
-        check_patch(hole, &surface)?;
+        check_patch(hole, &surface, self.interrupted)?;
+        proceed_unless(self.interrupted)?;
         let points: Vec<Vec3> = surface.points[surface.rim_count..]
             .iter()
             .map(|p| hole.to_mesh(p).into())
@@ -155,7 +156,7 @@ impl Planner<'_> {
             points: self.mesh.points(),
             triangles: self.mesh.triangles(),
         };
-        let intersections = count(mesh, self.faces, patch);
+        let intersections = count_unless(mesh, self.faces, patch, self.interrupted)?;
         Ok(Candidate {
             method,
             surface,

@@ -1,7 +1,7 @@
 //! Whether a patch may be used: the checks that every filled hole has passed.
 
 use super::hole::Hole;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::aabb::Aabb;
 use crate::math::cross_normal;
 use crate::mesh::connectivity::BOUNDARY;
@@ -24,8 +24,13 @@ const FARTHEST: f64 = 0.75;
 /// of a disk, less one for each island.
 ///
 /// # Errors
-/// [`ErrorKind::Topology`] or [`ErrorKind::Geometry`] with the first violation found.
-pub(crate) fn check_patch(hole: &Hole, surface: &PatchSurface) -> Result<()> {
+/// [`ErrorKind::Topology`] or [`ErrorKind::Geometry`] with the first violation found; `Cancelled` when
+/// `interrupted`, which is asked between the checks, returns true.
+pub(crate) fn check_patch(
+    hole: &Hole,
+    surface: &PatchSurface,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<()> {
     if let Some(v) = surface
         .points
         .iter()
@@ -56,7 +61,9 @@ pub(crate) fn check_patch(hole: &Hole, surface: &PatchSurface) -> Result<()> {
         }
         edges.extend((0..3).map(|k| edge_key(t[k], t[(k + 1) % 3])));
     }
+    proceed_unless(interrupted)?;
     edges.sort_unstable();
+    proceed_unless(interrupted)?;
     let mut is_used = vec![false; surface.points.len()];
     surface
         .triangles

@@ -10,12 +10,17 @@
 
 use super::Vec3;
 use super::aabb::Aabb;
+use crate::error::{Result, StopSign};
 use rayon::prelude::*;
 
 /// Children per node: a node's boxes fill three cache lines and the tree is eight levels for 4 M.
 const FANOUT: usize = 8;
 /// Boxes below which work is not worth sending to another thread.
 const GRAIN: usize = 4096;
+/// Boxes handled between two questions whether to go on, when one thread handles them all.
+const BOXES_PER_CHECK: usize = 1 << 19;
+/// Cells of some hundred boxes sorted between two questions.
+const CELLS_PER_CHECK: usize = 64;
 /// Boxes are sorted within at most `8 ^ 5` cells of space.
 const MOST_CELL_LEVELS: u32 = 5;
 
@@ -167,10 +172,28 @@ pub(crate) struct BoxTree {
 impl BoxTree {
     /// Makes the tree of `count` boxes, at most `u32::MAX`; the id of a box is its argument.
     pub(crate) fn build(count: usize, box_of: impl Fn(usize) -> Aabb + Sync) -> Self {
+        Self::build_unless(count, box_of, &|| false).expect("nothing stops it")
+    }
+
+    /// As [`build`](Self::build), unless `interrupted` says to stop.
+    ///
+    /// # Errors
+    /// `Cancelled` when it does.
+    pub(crate) fn build_unless(
+        count: usize,
+        box_of: impl Fn(usize) -> Aabb + Sync,
+        interrupted: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Self> {
+        let stop = StopSign::new(interrupted);
+        let box_of = |id| match stop.is_set_at(id, GRAIN) {
+            true => Aabb::empty(),
+            false => box_of(id),
+        };
         let indices = || (0..count).into_par_iter().with_min_len(GRAIN);
         let bounds = indices()
             .map(&box_of)
             .reduce(Aabb::empty, |a, b| a.union(&b));
+        stop.proceed()?;
         let frame = Frame::fit(&bounds);
 
         // Code and id share one word, so the order is total and a box moves as eight bytes.
@@ -183,8 +206,9 @@ impl BoxTree {
                 ((morton(&b.centre(), axis_bits) << id_bits) | id as u64, b)
             })
             .unzip_into_vecs(&mut keys, &mut unsorted);
+        stop.proceed()?;
         let id_mask = (1u64 << id_bits) - 1;
-        let order: Vec<u32> = sorted(keys, id_bits + 3 * axis_bits)
+        let order: Vec<u32> = sorted(keys, id_bits + 3 * axis_bits, &stop)?
             .par_iter()
             .with_min_len(GRAIN)
             .map(|k| (k & id_mask) as u32)
@@ -199,6 +223,7 @@ impl BoxTree {
                 .map(|ids| Siblings::of(ids.iter().map(|&id| unsorted[id as usize]))),
         );
         drop(unsorted);
+        stop.proceed()?;
         let mut levels = vec![0, siblings.len()];
         let mut start = 0;
         while siblings.len() - start > 1 {
@@ -211,12 +236,12 @@ impl BoxTree {
             siblings.extend_from_slice(&parents);
             levels.push(siblings.len());
         }
-        Self {
+        Ok(Self {
             frame,
             order,
             siblings,
             levels,
-        }
+        })
     }
 
     /// Puts the ids of all boxes that overlap `query` into `found`, in ascending order; `found` is cleared
@@ -342,27 +367,33 @@ impl<F: FnMut(u32) -> f64> NearSearch<'_, F> {
 }
 
 /// Sorts keys of `bits` bits: first into cells by their highest bits, then within each cell in parallel.
-fn sorted(mut keys: Vec<u64>, bits: u32) -> Vec<u64> {
+fn sorted(mut keys: Vec<u64>, bits: u32, stop: &StopSign<'_>) -> Result<Vec<u64>> {
     if keys.len() < GRAIN {
         keys.sort_unstable();
-        return keys;
+        return Ok(keys);
     }
     // A surface meets about 4 ^ level cells: this leaves some hundred keys in each.
     let cell_bits = 3 * (keys.len().ilog2() / 2 - 4).min(MOST_CELL_LEVELS);
     let cell = |key: u64| (key >> (bits - cell_bits)) as usize;
     let mut ends = vec![0_usize; 1 << cell_bits];
-    for &key in &keys {
-        ends[cell(key)] += 1;
+    for keys in keys.chunks(BOXES_PER_CHECK) {
+        stop.proceed()?;
+        for &key in keys {
+            ends[cell(key)] += 1;
+        }
     }
     let mut sum = 0;
     for end in &mut ends {
         (*end, sum) = (sum, sum + *end);
     }
     let mut sorted = vec![0; keys.len()];
-    for key in keys {
-        let place = &mut ends[cell(key)];
-        sorted[*place] = key;
-        *place += 1;
+    for keys in keys.chunks(BOXES_PER_CHECK) {
+        stop.proceed()?;
+        for &key in keys {
+            let place = &mut ends[cell(key)];
+            sorted[*place] = key;
+            *place += 1;
+        }
     }
     let mut rest = sorted.as_mut_slice();
     let mut cells = Vec::new();
@@ -374,8 +405,13 @@ fn sorted(mut keys: Vec<u64>, bits: u32) -> Vec<u64> {
         }
         (rest, start) = (later, end);
     }
-    cells.into_par_iter().for_each(<[u64]>::sort_unstable);
-    sorted
+    cells.into_par_iter().enumerate().for_each(|(i, keys)| {
+        if !stop.is_set_at(i, CELLS_PER_CHECK) {
+            keys.sort_unstable();
+        }
+    });
+    stop.proceed()?;
+    Ok(sorted)
 }
 
 /// Position along the Morton curve of a point of the cube of side two, with `bits` per axis.

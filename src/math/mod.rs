@@ -1,8 +1,10 @@
-//! Vectors, planes, boxes and the sparse solver: no mesh, no hole.
+//! Vectors, planes, boxes, random numbers and the sparse solver: no mesh, no hole.
 
 pub(crate) mod aabb;
 pub(crate) mod box_tree;
 pub(crate) mod plane;
+#[allow(dead_code)] // until a method uses it
+pub(crate) mod random;
 pub(crate) mod sparse;
 
 /// A point or direction; the type that all geometry is computed in.

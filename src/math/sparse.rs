@@ -1,7 +1,7 @@
 //! Sparse symmetric positive definite systems, solved by the supernodal Cholesky factorisation of `faer`.
 
 use super::Vec3;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use faer::linalg::solvers::SolveCore;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
@@ -36,17 +36,38 @@ impl SymmetricMatrix {
 }
 
 /// A solver that keeps the symbolic factorisation while the pattern of the matrix stays the same.
-#[derive(Default)]
-pub(crate) struct SpdSolver {
+pub(crate) struct SpdSolver<'a> {
+    interrupted: &'a dyn Fn() -> bool,
     pattern: (Vec<u32>, Vec<u32>),
     symbolic: Option<SymbolicLlt<u32>>,
 }
 
-impl SpdSolver {
+impl Default for SpdSolver<'_> {
+    fn default() -> Self {
+        Self::new(&|| false)
+    }
+}
+
+impl<'a> SpdSolver<'a> {
+    /// `interrupted` is asked from time to time; true stops the work.
+    pub(crate) fn new(interrupted: &'a dyn Fn() -> bool) -> Self {
+        Self {
+            interrupted,
+            pattern: (Vec::new(), Vec::new()),
+            symbolic: None,
+        }
+    }
+
+    /// The question whether to stop, for the work that makes the system.
+    pub(crate) fn interrupted(&self) -> &'a dyn Fn() -> bool {
+        self.interrupted
+    }
+
     /// Solves `matrix * x = right_side` for three coordinates at once and returns `x`.
     ///
     /// # Errors
-    /// [`ErrorKind::Solver`] when the matrix is not positive definite or the solution not finite.
+    /// [`ErrorKind::Solver`] when the matrix is not positive definite or the solution not finite;
+    /// [`ErrorKind::Cancelled`] when interrupted.
     pub(crate) fn solve(
         &mut self,
         mut matrix: SymmetricMatrix,
@@ -74,14 +95,17 @@ impl SpdSolver {
             &matrix.rows,
         );
         let is_known = self.pattern.0 == matrix.column_starts && self.pattern.1 == matrix.rows;
+        proceed_unless(self.interrupted)?;
         let symbolic = match self.symbolic.take().filter(|_| is_known) {
             Some(symbolic) => symbolic,
             None => SymbolicLlt::try_new(pattern, Side::Lower)
                 .map_err(|e| failed(format!("symbolic factorisation: {e:?}")))?,
         };
+        proceed_unless(self.interrupted)?;
         let values = SparseColMatRef::new(pattern, &matrix.values[..]);
         let factor = Llt::try_new_with_symbolic(symbolic.clone(), values, Side::Lower)
             .map_err(|e| failed(format!("factorisation of {size} unknowns: {e:?}")))?;
+        proceed_unless(self.interrupted)?;
         let mut x = Mat::from_fn(size, 3, |i, k| right_side[i][k]);
         factor.solve_in_place_with_conj(Conj::No, x.as_mut());
         self.symbolic = Some(symbolic);

@@ -14,6 +14,7 @@ use super::{
     separation::Separator,
     spatial::FaceIndex,
 };
+use crate::error::{Result, StopSign};
 use crate::math::Vec3;
 use crate::math::aabb::Aabb;
 use crate::math::box_tree::BoxTree;
@@ -92,6 +93,19 @@ pub(crate) fn count(
     faces: &FaceIndex,
     patch: AppendedPatch<'_>,
 ) -> SelfIntersections {
+    count_unless(mesh, faces, patch, &|| false).expect("nothing stops it")
+}
+
+/// As [`count`], unless `interrupted` says to stop.
+///
+/// # Errors
+/// `Cancelled` when it does.
+pub(crate) fn count_unless(
+    mesh: Surface<'_>,
+    faces: &FaceIndex,
+    patch: AppendedPatch<'_>,
+    interrupted: &(dyn Fn() -> bool + Sync),
+) -> Result<SelfIntersections> {
     let corners_of = |triangle: &[u32; 3]| {
         triangle.map(|v| match (v as usize).checked_sub(mesh.points.len()) {
             Some(new) => patch.points[new],
@@ -108,9 +122,9 @@ pub(crate) fn count(
         boxes: &boxes,
     };
     if corners.len() <= PIECE {
-        task.sweep()
+        Ok(task.sweep())
     } else {
-        task.search_in_parallel()
+        task.search_in_parallel(interrupted)
     }
 }
 
@@ -187,7 +201,7 @@ impl Task<'_> {
         {
             let widths = self.boxes.iter().map(|b| b.hi[axis] - b.lo[axis]);
             let widest = widths.fold(0.0, f64::max);
-            for face in near {
+            for &face in &near {
                 let a = Aabb::around(&self.mesh.corners(face as usize));
                 let first = swept.partition_point(|(b, _)| b.lo[axis] < a.lo[axis] - widest);
                 for (b, i) in &swept[first..] {
@@ -200,43 +214,57 @@ impl Task<'_> {
                 }
             }
         } else {
-            self.search_mesh(0..self.boxes.len(), &separators, &mut pairs);
+            for (i, separator) in separators.iter().enumerate() {
+                self.search_mesh(i, separator, &mut near, &mut pairs);
+            }
         }
         tally(pairs)
     }
 
-    /// Searches the mesh near the triangles of `piece`.
-    fn search_mesh(&self, piece: Range<usize>, separators: &[Separator], pairs: &mut Vec<Pair>) {
-        let mut found = Vec::new();
-        for (i, separator) in piece.zip(separators) {
-            self.faces.overlapping(&self.boxes[i], &mut found);
-            for &face in &found {
-                self.try_mesh(i, separator, face, pairs);
-            }
+    /// Searches the mesh near triangle `i`, with its separator; `found` is overwritten.
+    fn search_mesh(
+        &self,
+        i: usize,
+        separator: &Separator,
+        found: &mut Vec<u32>,
+        pairs: &mut Vec<Pair>,
+    ) {
+        self.faces.overlapping(&self.boxes[i], found);
+        for &face in found.iter() {
+            self.try_mesh(i, separator, face, pairs);
         }
     }
 
-    fn search_in_parallel(&self) -> SelfIntersections {
-        let own = BoxTree::build(self.boxes.len(), |i| self.boxes[i]);
+    fn search_in_parallel(
+        &self,
+        interrupted: &(dyn Fn() -> bool + Sync),
+    ) -> Result<SelfIntersections> {
+        let stop = StopSign::new(interrupted);
+        let own = BoxTree::build_unless(self.boxes.len(), |i| self.boxes[i], interrupted)?;
         let pieces = (0..self.boxes.len().div_ceil(PIECE)).into_par_iter();
         let search = |p: usize| {
             let piece = p * PIECE..((p + 1) * PIECE).min(self.boxes.len());
             let separators = self.separators(piece.clone());
             let mut pairs = Vec::new();
             let mut found = Vec::new();
-            for (i, separator) in piece.clone().zip(&separators) {
+            for (i, separator) in piece.zip(&separators) {
+                // Beside long thin triangles each one may take milliseconds.
+                if stop.is_set_at(i, 1) {
+                    break;
+                }
                 own.overlapping(&self.boxes[i], &mut found);
                 for &j in found.iter().filter(|&&j| j as usize > i) {
                     self.try_patch(i, separator, j as usize, &mut pairs);
                 }
+                self.search_mesh(i, separator, &mut found, &mut pairs);
             }
-            self.search_mesh(piece, &separators, &mut pairs);
             tally(pairs)
         };
         let tallies: Vec<_> = pieces.map(search).collect();
-        tallies
+        stop.proceed()?;
+        Ok(tallies
             .into_iter()
-            .fold(SelfIntersections::default(), SelfIntersections::merge)
+            .fold(SelfIntersections::default(), SelfIntersections::merge))
     }
 }
 

@@ -1,6 +1,7 @@
 //! A static spatial index over the faces of a mesh.
 
 use super::{Surface, closest::closest_on_triangle};
+use crate::error::Result;
 use crate::math::Vec3;
 use crate::math::aabb::Aabb;
 use crate::math::box_tree::BoxTree;
@@ -33,6 +34,20 @@ impl FaceIndex {
         Self {
             tree: BoxTree::build(surface.triangles.len(), box_of),
         }
+    }
+
+    /// As [`build`](Self::build), unless `interrupted` says to stop.
+    ///
+    /// # Errors
+    /// `Cancelled` when it does.
+    #[allow(dead_code)] // until the pipeline uses it
+    pub(crate) fn build_unless(
+        surface: Surface<'_>,
+        interrupted: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Self> {
+        let box_of = |f| Aabb::around(&surface.corners(f));
+        let tree = BoxTree::build_unless(surface.triangles.len(), box_of, interrupted)?;
+        Ok(Self { tree })
     }
 
     /// Puts all faces whose box overlaps `query` into `found`, in ascending order; `found` is

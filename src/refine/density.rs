@@ -10,13 +10,16 @@
 //! straight ones by up to a sixth.
 
 use super::connectivity::{Connectivity, prev};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
 use std::collections::VecDeque;
 
 /// Rims up to this many edges are filled at uniform density, with at most some 11,000 triangles.
 const UNIFORM_RIM: f64 = 250.0;
+
+/// Vertices looked at between two questions whether to go on.
+const VERTICES_PER_CHECK: usize = 1 << 14;
 
 /// Growth of the target length per distance from the rim, in the limit of very large rims. A round
 /// hole then takes about `11 m` triangles.
@@ -104,12 +107,13 @@ impl SizeField {
     ///
     /// # Errors
     /// `InvalidInput` unless there is one positive, finite size for each vertex or for each rim
-    /// vertex, and the grading is finite and not negative.
+    /// vertex, and the grading is finite and not negative; `Cancelled` when `interrupted` returns true.
     pub(super) fn new(
         mesh: &Connectivity,
         points: &[Vec3],
         given: &[f64],
         grading: f64,
+        interrupted: &dyn Fn() -> bool,
     ) -> Result<Self> {
         let (rim, all) = (mesh.rim_count(), mesh.vertex_count());
         if given.len() != rim && given.len() != all {
@@ -140,7 +144,7 @@ impl SizeField {
                 grading,
             });
         }
-        let (nearest, depths) = distances_from_rim(mesh, points);
+        let (nearest, depths) = distances_from_rim(mesh, points, interrupted)?;
         let smallest = given[..rim].iter().copied().fold(f64::INFINITY, f64::min);
         let sizes = (0..all).map(|v| {
             let growth = grading * depths[v];
@@ -215,7 +219,11 @@ impl SizeField {
 
 /// For each vertex the nearest rim vertex and the distance to it along edges; vertices without
 /// triangles count as the rim's first.
-fn distances_from_rim(mesh: &Connectivity, points: &[Vec3]) -> (Vec<u32>, Vec<f64>) {
+fn distances_from_rim(
+    mesh: &Connectivity,
+    points: &[Vec3],
+    interrupted: &dyn Fn() -> bool,
+) -> Result<(Vec<u32>, Vec<f64>)> {
     let (rim, all) = (mesh.rim_count(), mesh.vertex_count());
     let mut nearest: Vec<u32> = (0..all as u32)
         .map(|v| if (v as usize) < rim { v } else { 0 })
@@ -227,7 +235,12 @@ fn distances_from_rim(mesh: &Connectivity, points: &[Vec3]) -> (Vec<u32>, Vec<f6
         let mut waiting: VecDeque<u32> = (0..rim as u32).collect();
         let mut queued = vec![true; all];
         queued[rim..].fill(false);
+        let mut seen = 0;
         while let Some(v) = waiting.pop_front() {
+            seen += 1;
+            if seen % VERTICES_PER_CHECK == 0 {
+                proceed_unless(interrupted)?;
+            }
             queued[v as usize] = false;
             let neighbours = mesh
                 .corners(v)
@@ -249,7 +262,7 @@ fn distances_from_rim(mesh: &Connectivity, points: &[Vec3]) -> (Vec<u32>, Vec<f6
             *depth = 0.0;
         }
     }
-    (nearest, depths)
+    Ok((nearest, depths))
 }
 
 #[cfg(test)]
@@ -312,7 +325,7 @@ mod tests {
         let surface = fan_patch(disc_rim(5));
         let mesh = Connectivity::build(surface.triangles, 5, 5).unwrap();
         let bad = |sizes: &[f64], grading| {
-            SizeField::new(&mesh, &surface.points, sizes, grading).is_err()
+            SizeField::new(&mesh, &surface.points, sizes, grading, &|| false).is_err()
         };
         assert!(bad(&[1.0; 4], 0.0) && bad(&[1.0; 6], 0.0) && bad(&[], 0.0));
         assert!(bad(&[0.0; 5], 0.0) && bad(&[f64::NAN; 5], 0.0));
@@ -325,7 +338,8 @@ mod tests {
         let mesh = Connectivity::build(surface.triangles, 4, 4).unwrap();
         let given = [1.0, 2.0, 3.0, 4.0];
         for (grading, expected) in [(0.0, 2.0), (0.5, 2.0 + 0.5 * 0.5_f64.sqrt())] {
-            let mut sizes = SizeField::new(&mesh, &surface.points, &given, grading).unwrap();
+            let mut sizes =
+                SizeField::new(&mesh, &surface.points, &given, grading, &|| false).unwrap();
             sizes.push_midpoint(&surface.points, &Vec3::zeros(), [0, 2], [1, 3]);
             assert!(
                 (sizes.at(4) - expected).abs() < 1e-12,
@@ -343,7 +357,7 @@ mod tests {
         let triangles = (0..6).map(|i| [6, i, (i + 1) % 6]).collect();
         let mesh = Connectivity::build(triangles, 7, 6).unwrap();
         let given = [1.0, 1.0, 7.0, 1.0, 1.0, 1.0];
-        let sizes = SizeField::new(&mesh, &points, &given, 0.5).unwrap();
+        let sizes = SizeField::new(&mesh, &points, &given, 0.5, &|| false).unwrap();
         assert!(
             (sizes.at(6) - (7.0 + 0.5 * 0.1)).abs() < 1e-9,
             "{}",

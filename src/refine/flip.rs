@@ -11,6 +11,7 @@
 //! guarantees that the flips end by themselves. Each call therefore has a flip budget.
 
 use super::connectivity::{Connectivity, Halfedge, prev};
+use crate::error::{Result, proceed_unless};
 use crate::math::{Vec3, cross_normal, unit};
 
 /// Opposite angles count as more than π when the sine of their sum is below minus this. Cocircular
@@ -25,51 +26,67 @@ const MIN_NORMAL_COSINE: f64 = 0.3;
 /// is for unlucky initial triangulations.
 const FLIPS_PER_EDGE: usize = 16;
 
+/// Edges tested between two questions whether to go on.
+const TESTS_PER_CHECK: u32 = 1 << 14;
+
 /// Whether an edge between these two rim vertices exists outside the patch.
 pub(super) type Blocked<'a> = dyn Fn(u32, u32) -> bool + 'a;
 
 /// Flips edges of one patch; owns the stack so that it is allocated once.
 pub(super) struct Flipper<'a> {
     blocked: &'a Blocked<'a>,
+    interrupted: &'a dyn Fn() -> bool,
     stack: Vec<Halfedge>,
+    /// Edges that may still be tested before the next question whether to go on.
+    unasked: u32,
 }
 
 impl<'a> Flipper<'a> {
-    pub(super) fn new(blocked: &'a Blocked<'a>) -> Self {
+    /// `interrupted` is asked from time to time; true stops the work.
+    pub(super) fn new(blocked: &'a Blocked<'a>, interrupted: &'a dyn Fn() -> bool) -> Self {
         Self {
             blocked,
+            interrupted,
             stack: Vec::new(),
+            unasked: TESTS_PER_CHECK,
         }
     }
 
     /// Tests `edges`, and every edge next to a flipped one, until no flip is due. Returns the number
     /// of flips.
+    ///
+    /// # Errors
+    /// `Cancelled` when interrupted.
     pub(super) fn restore(
         &mut self,
         mesh: &mut Connectivity,
         points: &[Vec3],
         edges: impl ExactSizeIterator<Item = Halfedge>,
-    ) -> usize {
+    ) -> Result<usize> {
         let mut budget = FLIPS_PER_EDGE * edges.len();
         let granted = budget;
         for h in edges {
-            self.restore_from(mesh, points, h, &mut budget);
+            self.restore_from(mesh, points, h, &mut budget)?;
         }
-        granted - budget
+        Ok(granted - budget)
     }
 
     /// [`Self::restore`] over all edges of the patch.
-    pub(super) fn restore_all(&mut self, mesh: &mut Connectivity, points: &[Vec3]) -> usize {
+    pub(super) fn restore_all(
+        &mut self,
+        mesh: &mut Connectivity,
+        points: &[Vec3],
+    ) -> Result<usize> {
         let mut budget = FLIPS_PER_EDGE * mesh.halfedge_count() as usize;
         let granted = budget;
         for t in 0..mesh.triangles().len() {
             // An edge that is due has an obtuse angle opposite to it on one side at least, and what a
             // flip changes behind this triangle is on the stack.
             if let Some(h) = opposite_obtuse(points, mesh.triangles()[t], t as u32) {
-                self.restore_from(mesh, points, h, &mut budget);
+                self.restore_from(mesh, points, h, &mut budget)?;
             }
         }
-        granted - budget
+        Ok(granted - budget)
     }
 
     fn restore_from(
@@ -78,9 +95,14 @@ impl<'a> Flipper<'a> {
         points: &[Vec3],
         first: Halfedge,
         budget: &mut usize,
-    ) {
+    ) -> Result<()> {
         let mut edge = Some(first);
         while let Some(h) = edge {
+            self.unasked -= 1;
+            if self.unasked == 0 {
+                self.unasked = TESTS_PER_CHECK;
+                proceed_unless(self.interrupted)?;
+            }
             if let Some(g) = mesh.opposite(h)
                 && *budget > 0
                 && wants_flip(mesh, points, h, g)
@@ -91,6 +113,7 @@ impl<'a> Flipper<'a> {
             }
             edge = self.stack.pop();
         }
+        Ok(())
     }
 
     fn may_flip(&self, mesh: &Connectivity, h: Halfedge, g: Halfedge) -> bool {
@@ -154,7 +177,7 @@ pub(super) fn count_violations(
     points: &[Vec3],
     blocked: &Blocked<'_>,
 ) -> usize {
-    let flipper = Flipper::new(blocked);
+    let flipper = Flipper::new(blocked, &|| false);
     (0..mesh.halfedge_count())
         .filter(|&h| {
             mesh.opposite(h).is_some_and(|g| {
@@ -172,6 +195,11 @@ mod tests {
 
     fn connect(points: &[Vec3], triangles: Vec<[u32; 3]>) -> Connectivity {
         Connectivity::build(triangles, points.len(), points.len()).unwrap()
+    }
+
+    fn flip_all(mesh: &mut Connectivity, points: &[Vec3], blocked: &Blocked<'_>) -> usize {
+        let mut flipper = Flipper::new(blocked, &|| false);
+        flipper.restore_all(mesh, points).unwrap()
     }
 
     fn kite() -> (Vec<Vec3>, Connectivity) {
@@ -201,14 +229,8 @@ mod tests {
     #[test]
     fn the_long_diagonal_of_a_kite_is_flipped_unless_the_mesh_owns_the_short_one() {
         let (points, mut mesh) = kite();
-        assert_eq!(
-            Flipper::new(&|a, b| a + b == 4).restore_all(&mut mesh, &points),
-            0
-        );
-        assert_eq!(
-            Flipper::new(&|_, _| false).restore_all(&mut mesh, &points),
-            1
-        );
+        assert_eq!(flip_all(&mut mesh, &points, &|a, b| a + b == 4), 0);
+        assert_eq!(flip_all(&mut mesh, &points, &|_, _| false), 1);
         assert!(mesh.has_edge(1, 3) && !mesh.has_edge(0, 2));
         mesh.validate();
     }
@@ -224,10 +246,7 @@ mod tests {
                 corner(0.0, 1.0),
             ];
             let mut mesh = connect(&points, vec![[0, 1, 2], [0, 2, 3]]);
-            assert_eq!(
-                Flipper::new(&|_, _| false).restore_all(&mut mesh, &points),
-                0
-            );
+            assert_eq!(flip_all(&mut mesh, &points, &|_, _| false), 0);
         }
     }
 
@@ -240,10 +259,7 @@ mod tests {
             Vec3::new(3.0, 0.1, 0.0),
         ];
         let mut mesh = connect(&points, vec![[0, 1, 2], [0, 2, 3]]);
-        assert_eq!(
-            Flipper::new(&|_, _| false).restore_all(&mut mesh, &points),
-            0
-        );
+        assert_eq!(flip_all(&mut mesh, &points, &|_, _| false), 0);
     }
 
     #[test]
@@ -255,20 +271,14 @@ mod tests {
             Vec3::new(1.0, 1.0, 0.0),
         ];
         let mut mesh = connect(&points, vec![[0, 1, 2], [0, 2, 3]]);
-        assert_eq!(
-            Flipper::new(&|_, _| false).restore_all(&mut mesh, &points),
-            1
-        );
+        assert_eq!(flip_all(&mut mesh, &points, &|_, _| false), 1);
     }
 
     #[test]
     fn coincident_points_cause_no_flip_and_no_endless_loop() {
         let points = vec![Vec3::new(1.0, 2.0, 3.0); 9];
         let mut mesh = connect(&points, fan(9));
-        assert_eq!(
-            Flipper::new(&|_, _| false).restore_all(&mut mesh, &points),
-            0
-        );
+        assert_eq!(flip_all(&mut mesh, &points, &|_, _| false), 0);
     }
 
     #[test]
@@ -279,7 +289,7 @@ mod tests {
                 .map(|p| Vec3::new(p.x, 0.37 * p.y + 0.1 * p.x, 0.0))
                 .collect();
             let mut mesh = connect(&points, fan(n));
-            Flipper::new(&|_, _| false).restore_all(&mut mesh, &points);
+            flip_all(&mut mesh, &points, &|_, _| false);
             mesh.validate();
             assert!(circles_are_empty(&mesh, &points), "{n} corners");
         }
@@ -309,7 +319,7 @@ mod tests {
             }
         });
         let mut mesh = connect(&points, triangles.collect());
-        let flips = Flipper::new(&|_, _| false).restore_all(&mut mesh, &points);
+        let flips = flip_all(&mut mesh, &points, &|_, _| false);
         assert!(flips < 4 * n);
         mesh.validate();
         assert_eq!(count_violations(&mesh, &points, &|_, _| false), 0);
@@ -325,7 +335,7 @@ mod tests {
             let mut mesh = connect(&points, fan(points.len()));
             let rim = mesh.rim_pairs();
             let blocked = |a: u32, b: u32| blocks.rotate_left(a + b) & 7 == 0;
-            Flipper::new(&blocked).restore_all(&mut mesh, &points);
+            flip_all(&mut mesh, &points, &blocked);
             mesh.validate();
             prop_assert_eq!(mesh.rim_pairs(), rim);
             prop_assert_eq!(count_violations(&mesh, &points, &blocked), 0);

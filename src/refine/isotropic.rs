@@ -20,7 +20,7 @@ use super::density::SizeField;
 use super::flip::{Blocked, Flipper};
 use super::locality::renumber;
 use super::relax::relax;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
 use std::cmp::Reverse;
@@ -52,9 +52,12 @@ const SMALL_RIM: usize = 5;
 /// Diagonal over side in the regular pentagon, 1.618, and some room for irregular ones.
 const SMALL_RIM_FACTOR: f64 = 1.75;
 
+/// Edges looked at or vertices moved between two questions whether to go on.
+const STEPS_PER_CHECK: usize = 1 << 13;
+
 /// How to refine.
-#[derive(Clone, Debug)]
-pub(crate) struct RefineOptions {
+#[derive(Clone)]
+pub(crate) struct RefineOptions<'a> {
     /// Interior edges longer than this times the mean target length of their ends are split.
     pub(crate) split_factor: f64,
     /// The same for interior edges between two rim vertices, which would tie the rim together.
@@ -68,9 +71,11 @@ pub(crate) struct RefineOptions {
     pub(crate) final_relaxations: usize,
     /// Refinement that needs more vertices than this fails.
     pub(crate) max_vertices: usize,
+    /// Asked from time to time; true ends the work with a `Cancelled` error.
+    pub(crate) interrupted: &'a dyn Fn() -> bool,
 }
 
-impl Default for RefineOptions {
+impl Default for RefineOptions<'_> {
     fn default() -> Self {
         Self {
             split_factor: 1.4,
@@ -79,6 +84,7 @@ impl Default for RefineOptions {
             pass_relaxations: 2,
             final_relaxations: 3,
             max_vertices: 10_000_000,
+            interrupted: &|| false,
         }
     }
 }
@@ -105,11 +111,12 @@ pub(crate) struct RefineReport {
 ///
 /// # Errors
 /// `Topology` or `InvalidInput` for a patch that is not manifold, points that are not finite or sizes
-/// that are not positive; `Limit` when `max_vertices` do not suffice. The surface is then unchanged.
+/// that are not positive; `Limit` when `max_vertices` do not suffice;
+/// `Cancelled`. The surface is then unchanged.
 pub(crate) fn refine(
     surface: &mut PatchSurface,
     sizes: &mut Vec<f64>,
-    options: &RefineOptions,
+    options: &RefineOptions<'_>,
     blocked: &Blocked<'_>,
 ) -> Result<RefineReport> {
     if !surface.points.iter().flatten().all(|x| x.is_finite()) {
@@ -118,18 +125,26 @@ pub(crate) fn refine(
             "a patch point is not finite",
         ));
     }
+    proceed_unless(options.interrupted)?;
     let mesh = Connectivity::build(
         surface.triangles.clone(),
         surface.points.len(),
         surface.rim_count,
     )?;
-    let field = SizeField::new(&mesh, &surface.points, sizes, options.grading)?;
+    proceed_unless(options.interrupted)?;
+    let field = SizeField::new(
+        &mesh,
+        &surface.points,
+        sizes,
+        options.grading,
+        options.interrupted,
+    )?;
     let mut refiner = Refiner {
         points: surface.points.clone(),
         mesh,
         sizes: field,
         options,
-        flipper: Flipper::new(blocked),
+        flipper: Flipper::new(blocked, options.interrupted),
         dirty: Vec::new(),
         ordered: surface.points.len().max(RENUMBER_FROM),
         report: RefineReport::default(),
@@ -149,7 +164,7 @@ struct Refiner<'a> {
     mesh: Connectivity,
     points: Vec<Vec3>,
     sizes: SizeField,
-    options: &'a RefineOptions,
+    options: &'a RefineOptions<'a>,
     flipper: Flipper<'a>,
     /// Edges whose Delaunay property a split or a move may have broken.
     dirty: Vec<Halfedge>,
@@ -160,14 +175,14 @@ struct Refiner<'a> {
 
 impl Refiner<'_> {
     fn run(&mut self) -> Result<()> {
-        self.report.flips += self.flipper.restore_all(&mut self.mesh, &self.points);
+        self.restore_all()?;
         let mut relaxations = self.options.final_relaxations;
         for _ in 0..MAX_PASSES {
             let before = self.mesh.vertex_count();
             let long = self.all_long_edges();
             let added = self.split_edges(long)?;
-            self.restore_dirty();
-            self.order_if_grown();
+            self.restore_dirty()?;
+            self.order_if_grown()?;
             if added < local_limit(before) {
                 if added > 0 {
                     relaxations = relaxations.max(self.options.pass_relaxations);
@@ -175,13 +190,13 @@ impl Refiner<'_> {
                 break;
             }
             for _ in 0..self.options.pass_relaxations {
-                self.relax_all();
+                self.relax_all()?;
             }
             #[cfg(test)]
             self.mesh.validate();
         }
         for _ in 0..relaxations {
-            self.relax_all();
+            self.relax_all()?;
             if self.report.last_move < SETTLED_MOVE {
                 break;
             }
@@ -203,13 +218,13 @@ impl Refiner<'_> {
             if added == 0 && near.take().is_none() {
                 break;
             }
-            self.restore_dirty();
-            let local = !self.order_if_grown() && added < local_limit(before);
+            self.restore_dirty()?;
+            let local = !self.order_if_grown()? && added < local_limit(before);
             near = (local && added > 0).then(|| self.vertices_near(before as u32));
             for _ in 0..self.options.pass_relaxations {
                 match &near {
-                    Some(near) => self.relax_some(near),
-                    None if added > 0 => self.relax_all(),
+                    Some(near) => self.relax_some(near)?,
+                    None if added > 0 => self.relax_all()?,
                     None => {}
                 }
             }
@@ -220,13 +235,15 @@ impl Refiner<'_> {
     }
 
     /// Whether the patch grew so much that its vertices and triangles now have new numbers.
-    fn order_if_grown(&mut self) -> bool {
+    fn order_if_grown(&mut self) -> Result<bool> {
         let grown = self.mesh.vertex_count() as f64 > RENUMBER_GROWTH * self.ordered as f64;
         if grown {
             self.ordered = self.mesh.vertex_count();
+            proceed_unless(self.options.interrupted)?;
             renumber(&mut self.mesh, &mut self.points, &mut self.sizes);
+            proceed_unless(self.options.interrupted)?;
         }
-        grown
+        Ok(grown)
     }
 
     /// The squared length of an edge over that at which it is split.
@@ -291,7 +308,8 @@ impl Refiner<'_> {
         let before = self.mesh.vertex_count();
         long.sort_by_key(|&(class, _)| class);
         let mut used = vec![false; self.mesh.triangles().len()];
-        for (_, h) in long {
+        for (step, (_, h)) in long.into_iter().enumerate() {
+            self.check_every(step)?;
             let Some(g) = self.mesh.opposite(h) else {
                 continue;
             };
@@ -328,29 +346,44 @@ impl Refiner<'_> {
         self.dirty.extend(self.mesh.split(h, g));
     }
 
-    fn restore_dirty(&mut self) {
-        self.report.flips +=
-            self.flipper
-                .restore(&mut self.mesh, &self.points, self.dirty.drain(..));
+    fn restore_dirty(&mut self) -> Result<()> {
+        let dirty = self.dirty.drain(..);
+        self.report.flips += self.flipper.restore(&mut self.mesh, &self.points, dirty)?;
+        Ok(())
     }
 
-    fn relax_all(&mut self) {
+    fn restore_all(&mut self) -> Result<()> {
+        self.report.flips += self.flipper.restore_all(&mut self.mesh, &self.points)?;
+        Ok(())
+    }
+
+    fn relax_all(&mut self) -> Result<()> {
         self.report.last_move = 0.0;
         for v in self.mesh.rim_count() as u32..self.mesh.vertex_count() as u32 {
+            self.check_every(v as usize)?;
             self.relax_vertex(v);
         }
-        self.report.flips += self.flipper.restore_all(&mut self.mesh, &self.points);
+        self.restore_all()
+    }
+
+    /// Asks whether to go on at every so many steps of a long loop.
+    fn check_every(&self, step: usize) -> Result<()> {
+        if step.is_multiple_of(STEPS_PER_CHECK) {
+            proceed_unless(self.options.interrupted)?;
+        }
+        Ok(())
     }
 
     /// Relaxes interior `vertices` and restores the edges round them.
-    fn relax_some(&mut self, vertices: &[u32]) {
+    fn relax_some(&mut self, vertices: &[u32]) -> Result<()> {
         self.report.last_move = 0.0;
-        for &v in vertices {
+        for (step, &v) in vertices.iter().enumerate() {
+            self.check_every(step)?;
             self.relax_vertex(v);
             self.dirty
                 .extend(self.mesh.corners(v).flat_map(|h| [h, next(h)]));
         }
-        self.restore_dirty();
+        self.restore_dirty()
     }
 
     fn relax_vertex(&mut self, v: u32) {

@@ -84,8 +84,14 @@ mod tests {
         let surface = fan_patch(disc_rim(rim));
         let mut mesh = Connectivity::build(surface.triangles, rim, rim).unwrap();
         let mut points = surface.points;
-        let mut sizes =
-            SizeField::new(&mesh, &points, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0], 0.1).unwrap();
+        let mut sizes = SizeField::new(
+            &mesh,
+            &points,
+            &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0],
+            0.1,
+            &|| false,
+        )
+        .unwrap();
         for h in 0..30 {
             if let Some(g) = mesh.opposite(h) {
                 let (a, b) = (mesh.origin(h), mesh.target(h));

@@ -199,7 +199,14 @@ mod tests {
             points: points.to_vec(),
             triangles: mesh.triangles().to_vec(),
         };
-        SizeField::new(mesh, &surface.points, &vec![1.0; rim_count], grading).unwrap()
+        SizeField::new(
+            mesh,
+            &surface.points,
+            &vec![1.0; rim_count],
+            grading,
+            &|| false,
+        )
+        .unwrap()
     }
 
     fn hexagon(height: f64) -> Vec<Vec3> {

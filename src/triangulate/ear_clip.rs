@@ -28,7 +28,7 @@ const FACING_SHARE: f64 = 0.5;
 /// rim's normals say nothing.
 const DISTRUST: f64 = 8.0;
 /// Ears cut between two questions whether to go on.
-const EARS_PER_CHECK: usize = 4096;
+const EARS_PER_CHECK: usize = 1024;
 
 /// What ear clipping leaves.
 pub(super) struct Clipped {

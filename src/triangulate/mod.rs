@@ -1,14 +1,18 @@
-//! Triangulates the polygon of a hole with no new vertices.
+//! Triangulates the polygon of a hole, in space or in the plane, with no new vertices on it.
 
 mod ear_clip;
 mod min_weight;
+#[allow(dead_code)] // until a method uses it
+pub(crate) mod planar;
 mod polygon;
+#[allow(dead_code)]
+pub(crate) mod simple_polygon;
 #[cfg(test)]
 mod test_polygons;
 
 pub(crate) use polygon::{HolePolygon, Weight, weight_of};
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::Vec3;
 use ear_clip::Clipped;
 use polygon::ChordRules;
@@ -68,6 +72,7 @@ pub(crate) fn triangulate(
     } else {
         clip_then_search(polygon, options)?
     };
+    proceed_unless(options.interrupted)?;
     let weight = weight_of(polygon, &triangles)?;
     Ok(Triangulation { triangles, weight })
 }
@@ -80,6 +85,7 @@ fn clip_then_search(
     let mut failure = None;
     for doubling in 0..=MAX_REMAINDER_DOUBLINGS {
         let target = options.ear_remainder.max(3).saturating_mul(1 << doubling);
+        proceed_unless(options.interrupted)?;
         let clipped = ear_clip::clip(polygon, &rules, target, options.interrupted)?;
         match search_rest(polygon, &rules, &clipped, options) {
             Ok(rest) => {

@@ -4,7 +4,7 @@
 //! P. Liepa, "Filling holes in meshes", SGP 2003. Unlike there, the patch is refined again while it takes
 //! shape, so that its triangles are as regular on the final surface as they were on the first one.
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::fair::kharmonic::{Order, fair};
 use crate::fair::laplacian::Weights;
 use crate::fill::method::Method;
@@ -64,7 +64,7 @@ impl<'a> Staircase<'a> {
             Method::FairC2 => Order::Three,
         };
         let mut surface = self.refined()?;
-        let mut solver = SpdSolver::default();
+        let mut solver = SpdSolver::new(self.interrupted);
         let around = &self.hole.surroundings;
         fair(
             &mut surface,
@@ -77,13 +77,6 @@ impl<'a> Staircase<'a> {
             fair(&mut surface, around, order, Weights::Cotangent, &mut solver)?;
         }
         Ok(surface)
-    }
-
-    fn check_interruption(&self) -> Result<()> {
-        if (self.interrupted)() {
-            return Err(Error::cancelled());
-        }
-        Ok(())
     }
 
     fn triangulate(&self, exact_limit: usize, ear_remainder: usize) -> Result<PatchSurface> {
@@ -129,7 +122,7 @@ impl<'a> Staircase<'a> {
             }
             self.refine(&mut surface, &mut sizes, COARSE_RELAXATIONS)?;
             let around = &self.hole.surroundings;
-            let mut solver = SpdSolver::default();
+            let mut solver = SpdSolver::new(self.interrupted);
             fair(
                 &mut surface,
                 around,
@@ -152,7 +145,6 @@ impl<'a> Staircase<'a> {
         sizes: &mut Vec<f64>,
         final_relaxations: usize,
     ) -> Result<()> {
-        self.check_interruption()?;
         let options = RefineOptions {
             grading: self
                 .options
@@ -163,9 +155,10 @@ impl<'a> Staircase<'a> {
             max_vertices: surface
                 .rim_count
                 .saturating_add(self.options.max_new_vertices),
+            interrupted: self.interrupted,
             ..RefineOptions::default()
         };
         refine(surface, sizes, &options, &|a, b| self.hole.is_joined(a, b))?;
-        self.check_interruption()
+        Ok(())
     }
 }

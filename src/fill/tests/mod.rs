@@ -2,6 +2,7 @@
 
 mod attributes;
 mod conflicts;
+mod interruption;
 mod islands;
 mod outcomes;
 mod properties;

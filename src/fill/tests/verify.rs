@@ -38,9 +38,13 @@ fn kind(result: Result<()>) -> Option<ErrorKind> {
 /// Panics unless the change to a valid patch is caught as `expected`.
 fn assert_caught(expected: ErrorKind, what: &str, change: impl Fn(&mut PatchSurface)) {
     let (_, hole, mut surface) = sphere_cap();
-    assert_eq!(kind(check_patch(&hole, &surface)), None);
+    assert_eq!(kind(check_patch(&hole, &surface, &|| false)), None);
     change(&mut surface);
-    assert_eq!(kind(check_patch(&hole, &surface)), Some(expected), "{what}");
+    assert_eq!(
+        kind(check_patch(&hole, &surface, &|| false)),
+        Some(expected),
+        "{what}"
+    );
 }
 
 #[test]
@@ -48,7 +52,7 @@ fn a_patch_as_it_is_made_is_accepted() {
     for method in super::METHODS {
         let (mesh, hole, surface) =
             hole_and_patch(&fixtures::sphere(9).cut(|c| c[0] > 0.5), method);
-        assert_eq!(kind(check_patch(&hole, &surface)), None);
+        assert_eq!(kind(check_patch(&hole, &surface, &|| false)), None);
         let global = |v: u32| match (v as usize).checked_sub(surface.rim_count) {
             Some(new) => (mesh.positions().len() + new) as u32,
             None => hole.rim[v as usize],
@@ -140,9 +144,12 @@ fn an_edge_that_the_mesh_has_already_is_caught() {
         triangles: triangles.map(|t| t.map(at)).to_vec(),
     };
     let free = patch([[0, 2, 3], [0, 3, 1]]);
-    assert_eq!(kind(check_patch(&hole, &free)), None);
+    assert_eq!(kind(check_patch(&hole, &free, &|| false)), None);
     let taken = patch([[0, 2, 1], [1, 2, 3]]);
-    assert_eq!(kind(check_patch(&hole, &taken)), Some(ErrorKind::Topology));
+    assert_eq!(
+        kind(check_patch(&hole, &taken, &|| false)),
+        Some(ErrorKind::Topology)
+    );
     let caught = |triangles: &[[u32; 3]]| kind(check_against_mesh(&mesh, &hole, triangles));
     assert_eq!(caught(&[[0, 2, 3], [0, 3, 1]]), None);
     assert_eq!(caught(&[[0, 2, 1], [1, 2, 3]]), Some(ErrorKind::Topology));

@@ -1,0 +1,81 @@
+//! How soon a fill answers when it is asked to stop.
+
+use super::{mesh_of, with_method};
+use crate::boundary::loops::BoundaryLoops;
+use crate::fill::method::Method;
+use crate::fill::plan::{Planner, chain};
+use crate::fixtures::{self, Arrays};
+use crate::quality::Surface;
+use crate::quality::spatial::FaceIndex;
+use std::sync::Mutex;
+
+/// Seconds of processor time that may pass between two questions.
+const LONGEST_GAP: f64 = 0.4;
+
+/// A band round a hole of `edges` edges with five lobes.
+fn wide_rim(edges: usize) -> Arrays {
+    fixtures::cylinder(edges, 3).mapped(|[x, y, z]| {
+        let angle = y.atan2(x);
+        let theta = 1.0 + 0.15 * (5.0 * angle).cos() + z;
+        [
+            theta.sin() * angle.cos(),
+            theta.sin() * angle.sin(),
+            theta.cos(),
+        ]
+    })
+}
+
+/// Seconds that this thread has spent on a processor, which other programs do not prolong; `None` where the
+/// system does not tell.
+fn processor_seconds() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let nanoseconds: f64 = text.split(' ').next()?.parse().ok()?;
+    Some(nanoseconds * 1e-9)
+}
+
+/// The longest processor time between two questions while the hole of `edges` edges is planned on one thread, the
+/// work before the first and after the last one included.
+fn longest_gap(edges: usize, method: Method) -> f64 {
+    let mesh = mesh_of(&wide_rim(edges));
+    let boundary = BoundaryLoops::find(&mesh);
+    let faces = FaceIndex::build(Surface {
+        points: mesh.points(),
+        triangles: mesh.triangles(),
+    });
+    let options = with_method(method);
+    let gaps = Mutex::new((None, 0.0_f64));
+    let ask = || {
+        let now = processor_seconds();
+        let mut gaps = gaps.lock().unwrap();
+        if let (Some(now), (Some(last), longest)) = (now, *gaps) {
+            gaps.1 = longest.max(now - last);
+        }
+        gaps.0 = now;
+        false
+    };
+    let planner = Planner {
+        mesh: &mesh,
+        faces: &faces,
+        options: &options,
+        interrupted: &ask,
+    };
+    let one_thread = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .unwrap();
+    one_thread.install(|| {
+        ask();
+        let plan = planner.plan(&boundary.loops[0], &[], &chain(&options)[..1]);
+        assert!(plan.is_ok());
+        ask();
+    });
+    gaps.into_inner().unwrap().1
+}
+
+#[test]
+fn the_question_whether_to_stop_is_asked_often() {
+    for method in [Method::Flat, Method::FairC2] {
+        let gap = longest_gap(20_000, method);
+        assert!(gap < LONGEST_GAP, "{method}: {gap:.3} s without a question");
+    }
+}

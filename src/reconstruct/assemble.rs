@@ -12,12 +12,12 @@
 //!
 //! Complexity: O(n k) for n points with k neighbours, O(n log n) to sort.
 
-use super::{THINGS_PER_CHECK, gaps};
 use super::cloud::{Cloud, Neighbours, for_all};
 use super::reach::{RIM_SHARE, circumradius, limits};
 use super::star::Star;
 use super::surface::{Surface, from_lowest, rotations};
 use super::tangent::Tangent;
+use super::{THINGS_PER_CHECK, gaps};
 use crate::error::{Error, Result};
 use rayon::prelude::*;
 use std::cmp::Reverse;

@@ -78,8 +78,8 @@ impl Cloud {
     pub(super) fn within(&self, v: u32, radius: f64, most: usize) -> Vec<u32> {
         let at = self.points[v as usize];
         let found = self.tree.nearest_neighbor_iter(at.into());
-        let near =
-            found.take_while(|entry| (Vec3::from(*entry.geom()) - at).norm_squared() <= radius * radius);
+        let near = found
+            .take_while(|entry| (Vec3::from(*entry.geom()) - at).norm_squared() <= radius * radius);
         let others = near.map(|entry| entry.data).filter(|&w| w != v);
         self.in_order(v, others.take(most).collect())
     }

@@ -42,7 +42,10 @@ fn small_loops(surface: &Surface) -> Vec<Vec<u32>> {
     let sides = surface.boundary();
     let next = |v: u32| {
         let at = sides.partition_point(|side| side[0] < v);
-        sides.get(at).filter(|side| side[0] == v).map(|side| side[1])
+        sides
+            .get(at)
+            .filter(|side| side[0] == v)
+            .map(|side| side[1])
     };
     let trace = |start: u32| {
         let mut vertices = vec![start];

@@ -205,6 +205,7 @@ pub fn mesh_from_points(
     }
     if known.iter().all(Option::is_none) {
         outward::face_outward(&distinct.points, &mut triangles);
+        triangles.sort_unstable();
     }
     let report = PointReport {
         points: count,

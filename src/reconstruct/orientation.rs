@@ -74,7 +74,11 @@ pub(super) fn agree(
 }
 
 fn listed(neighbours: &Neighbours, v: u32, w: u32) -> bool {
-    neighbours.of(v).iter().take(SIGN_NEIGHBOURS).any(|&x| x == w)
+    neighbours
+        .of(v)
+        .iter()
+        .take(SIGN_NEIGHBOURS)
+        .any(|&x| x == w)
 }
 
 struct Edge {

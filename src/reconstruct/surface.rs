@@ -116,7 +116,7 @@ impl<'a> Surface<'a> {
         let mut removed = 0;
         let mut queue = BinaryHeap::new();
         let sides = self.boundary();
-        let mut offer = |surface: &Self, [a, b]: [u32; 2], queue: &mut BinaryHeap<Peeled>| {
+        let offer = |surface: &Self, [a, b]: [u32; 2], queue: &mut BinaryHeap<Peeled>| {
             let Some(c) = surface.third(a, b) else {
                 return;
             };

@@ -1,6 +1,6 @@
 //! `holefill fill`: reads a mesh, fills its holes, writes it.
 
-use crate::args::FillArgs;
+use crate::args::{FillArgs, FillHow};
 use crate::input::{LoadSeconds, Loaded, seconds_since};
 use crate::preview::Scene;
 use crate::report::FillFacts;
@@ -17,10 +17,15 @@ use std::path::Path;
 use std::time::Instant;
 
 pub(crate) fn run(args: &FillArgs) -> Result<Outcome, Failure> {
-    check_destinations(args)?;
-    let options = options(args)?;
+    let extra: Vec<&Path> = [&args.report, &args.preview]
+        .into_iter()
+        .flatten()
+        .map(|path| path.as_path())
+        .collect();
+    check_destinations(&args.input, &args.output, &extra)?;
+    let options = options(&args.how, args.threads)?;
     limit_threads(options.threads)?;
-    let selection = selection(args)?;
+    let selection = selection(&args.how)?;
 
     let Loaded {
         mut mesh,
@@ -68,21 +73,21 @@ pub(crate) fn run(args: &FillArgs) -> Result<Outcome, Failure> {
     Ok(Outcome::SomeFailed)
 }
 
-/// Refuses destinations that cannot work, before minutes are spent.
-fn check_destinations(args: &FillArgs) -> Result<(), Failure> {
-    if !io::is_known_extension(&args.output) {
+/// Refuses destinations that cannot work, before minutes are spent: those of the mesh and of what is written
+/// `extra`.
+pub(crate) fn check_destinations(
+    input: &Path,
+    output: &Path,
+    extra: &[&Path],
+) -> Result<(), Failure> {
+    if !io::is_known_extension(output) {
         return Err(Failure::usage(format!(
             "{}: unknown file type; the known extensions are .ply, .obj, .off and .stl",
-            args.output.display()
+            output.display()
         )));
     }
-    let extra: Vec<&Path> = [&args.report, &args.preview]
-        .into_iter()
-        .flatten()
-        .map(|path| path.as_path())
-        .collect();
     for (i, path) in extra.iter().enumerate() {
-        let others = [args.input.as_path(), args.output.as_path()];
+        let others = [input, output];
         let mut others = others.iter().chain(&extra[..i]);
         if let Some(other) = others.find(|other| destination::is_same(path, other)) {
             return Err(Failure::usage(format!(
@@ -92,26 +97,26 @@ fn check_destinations(args: &FillArgs) -> Result<(), Failure> {
             )));
         }
     }
-    for path in std::iter::once(args.output.as_path()).chain(extra) {
+    for path in std::iter::once(&output).chain(extra) {
         destination::check(path)?;
     }
     Ok(())
 }
 
 /// Keeps all parallel work, that of reading in the mesh included, to this many threads; 0 is no limit.
-fn limit_threads(threads: usize) -> Result<(), Failure> {
+pub(crate) fn limit_threads(threads: usize) -> Result<(), Failure> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build_global()
         .map_err(|e| Failure::file(format!("cannot start {threads} threads: {e}")))
 }
 
-fn options(args: &FillArgs) -> Result<FillOptions, Failure> {
+pub(crate) fn options(how: &FillHow, threads: u16) -> Result<FillOptions, Failure> {
     let mut options = FillOptions::default();
-    options.method = args.method;
-    options.seed = args.seed;
-    options.threads = args.threads.into();
-    for (key, value) in &args.set {
+    options.method = how.method;
+    options.seed = how.seed;
+    options.threads = threads.into();
+    for (key, value) in &how.set {
         options
             .set(key, value)
             .map_err(|e| Failure::usage(e.to_string()))?;
@@ -119,13 +124,13 @@ fn options(args: &FillArgs) -> Result<FillOptions, Failure> {
     Ok(options)
 }
 
-fn selection(args: &FillArgs) -> Result<Selection, Failure> {
+pub(crate) fn selection(how: &FillHow) -> Result<Selection, Failure> {
     let selection = Selection {
-        only: args.only.clone(),
-        keep: args.keep.clone(),
-        max_edges: args.max_edges,
-        max_perimeter: args.max_perimeter,
-        keep_largest: args.keep_largest,
+        only: how.only.clone(),
+        keep: how.keep.clone(),
+        max_edges: how.max_edges,
+        max_perimeter: how.max_perimeter,
+        keep_largest: how.keep_largest,
     };
     // What is wrong with any mesh is found with an empty one, before the file is read.
     let rules = Selection {
@@ -139,7 +144,7 @@ fn selection(args: &FillArgs) -> Result<Selection, Failure> {
     Ok(selection)
 }
 
-fn fill(
+pub(crate) fn fill(
     mesh: &mut TriMesh,
     boundary: &BoundaryLoops,
     selection: &Selection,
@@ -173,7 +178,7 @@ fn progress_bar(holes: usize) -> ProgressBar {
 }
 
 /// Writes the mesh in the form of the file that it came from, and gives it back.
-fn write_mesh(
+pub(crate) fn write_mesh(
     path: &Path,
     mesh: TriMesh,
     mut file: MeshData,
@@ -211,7 +216,7 @@ fn facts(
         } else {
             args.threads.into()
         },
-        seed: args.seed,
+        seed: args.how.seed,
     }
 }
 
@@ -235,6 +240,6 @@ fn draw(
     io::replace(path, |out| preview::write_png(&picture, out)).map_err(file_failure)
 }
 
-fn file_failure(error: Error) -> Failure {
+pub(crate) fn file_failure(error: Error) -> Failure {
     Failure::file(error.to_string())
 }

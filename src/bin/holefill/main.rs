@@ -13,6 +13,7 @@ mod fill;
 mod input;
 mod inspect;
 mod model;
+mod points;
 mod preview;
 mod raster;
 mod report;
@@ -57,6 +58,7 @@ fn main() -> ExitCode {
     };
     let result = match &command {
         Command::Fill(args) => fill::run(args),
+        Command::Points(args) => points::run(args),
         Command::Inspect(args) => inspect::run(args),
         Command::Compare(args) => compare::run(args),
         Command::Demo(args) => demo::run(args),

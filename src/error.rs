@@ -13,6 +13,8 @@ pub enum ErrorKind {
     Topology,
     /// The positions do not allow the operation (zero area, coincident or collinear vertices).
     Geometry,
+    /// A curve could not be unfolded: it is knotted, linked with another one, or too tangled.
+    Knotted,
     /// A linear system could not be factored or its solution is not finite.
     Solver,
     /// A documented size, work or time limit was exceeded.

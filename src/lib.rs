@@ -22,6 +22,7 @@
 mod boundary;
 mod error;
 mod fair;
+pub mod ffi;
 mod fill;
 #[cfg(test)]
 #[path = "../tests/common/meshes.rs"]
@@ -41,10 +42,11 @@ pub use boundary::loops::{BoundaryLoop, BoundaryLoops};
 pub use boundary::select::Selection;
 pub use error::{Error, ErrorKind, Result};
 pub use fill::method::Method;
-pub use fill::options::{FillOptions, Parameter};
+pub use fill::options::{AttributeOptions, FillOptions, FilledAttributes, Interpolator, Parameter};
 pub use fill::pipeline::fill_holes;
 pub use fill::progress::{Progress, ProgressCallback};
 pub use fill::report::{Attempt, FillReport, HoleReport, HoleStatus};
+pub use fill::session::{FillPlan, FillSession, PlannedPatch, Target};
 pub use mesh::attributes::{
     Attribute, AttributeValues, Attributes, ListValues, ScalarType, ScalarValues,
 };
@@ -52,3 +54,4 @@ pub use mesh::defects::{Defect, MeshDefects};
 pub use mesh::trimesh::TriMesh;
 pub use quality::deviation;
 pub use reconstruct::{PointCloud, PointOptions, PointReport, mesh_from_points};
+pub use triangulate::unfold::{UnfoldOptions, UnfoldSolver, Unfolding, unfold_curve};

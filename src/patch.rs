@@ -1,6 +1,6 @@
 //! One hole as plain data, and the piece of surface that closes it: what every method takes and returns.
 
-use crate::math::Vec3;
+use crate::math::{Vec3, cross_normal};
 
 /// A triangulated surface over the rim of a hole: what triangulation returns and refinement and
 /// fairing work on.
@@ -51,6 +51,35 @@ pub(crate) struct HoleShape {
 }
 
 impl HoleShape {
+    /// The position of a vertex of the rim or of the surroundings.
+    pub(crate) fn point(&self, vertex: u32) -> Vec3 {
+        let v = vertex as usize;
+        match v.checked_sub(self.points.len()) {
+            None => self.points[v],
+            Some(outside) => self.surroundings.points[outside],
+        }
+    }
+
+    /// The spacing at which the surface next to the rim is sampled: `sqrt(A / (3 n))` with `A` the area of the
+    /// triangles that touch one of the `n` rim vertices. About 0.54 of an edge where these are equilateral.
+    ///
+    /// From: J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed from point
+    /// clouds", Image and Vision Computing 25(1), 2007, eq. 9.
+    pub(crate) fn sampling_step(&self) -> f64 {
+        let rim_count = self.points.len();
+        let double_area: f64 = self
+            .surroundings
+            .triangles
+            .iter()
+            .filter(|t| t.iter().any(|&v| (v as usize) < rim_count))
+            .map(|t| {
+                let [a, b, c] = t.map(|v| self.point(v));
+                cross_normal(&a, &b, &c).norm()
+            })
+            .sum();
+        (double_area / 2.0 / (3.0 * rim_count as f64)).sqrt()
+    }
+
     /// Whether an edge of the mesh already joins two rim vertices.
     pub(crate) fn is_joined(&self, a: u32, b: u32) -> bool {
         self.joined.binary_search(&(a.min(b), a.max(b))).is_ok()

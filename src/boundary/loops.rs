@@ -45,6 +45,12 @@ pub struct BoundaryLoop {
 }
 
 impl BoundaryLoop {
+    /// The closed polyline through `points` as a loop that no triangle lies along.
+    pub(crate) fn of_polyline(points: &[Vec3]) -> Self {
+        let vertices = (0..points.len() as u32).collect();
+        measure_points(vertices, points, vec![BOUNDARY; points.len()])
+    }
+
     /// One directed edge of the loop, as in its triangle: it names the loop in selections.
     #[must_use]
     pub fn edge(&self) -> [u32; 2] {
@@ -283,30 +289,40 @@ fn measure(mesh: &TriMesh, id: usize, chain: &Chain) -> BoundaryLoop {
         vertices.push(other_end(mesh, last.halfedge, last.from));
     }
     let points: Vec<Vec3> = vertices.iter().map(|&v| mesh.point(v)).collect();
+    BoundaryLoop {
+        id,
+        class: match (chain.is_closed, reversed.is_empty()) {
+            (false, _) => LoopClass::OpenChain,
+            (true, false) => LoopClass::NotOriented,
+            (true, true) => LoopClass::Simple,
+        },
+        reversed,
+        ..measure_points(vertices, &points, halfedges)
+    }
+}
+
+/// A simple loop with the measures of `points`, which are the positions of its vertices.
+fn measure_points(vertices: Vec<u32>, points: &[Vec3], halfedges: Vec<u32>) -> BoundaryLoop {
     let mut area = Vec3::zeros();
-    let bounds = Aabb::around(&points);
+    let bounds = Aabb::around(points);
     for (i, p) in points.iter().enumerate() {
         let q = points[(i + 1) % points.len()];
         area += (p - points[0]).cross(&(q - points[0])) / 2.0;
     }
     let length = |i: usize| (points[(i + 1) % points.len()] - points[i]).norm();
     let perimeter = (0..halfedges.len()).map(length).sum();
-    let spread = principal_spreads(&points);
+    let spread = principal_spreads(points);
     let total = spread.iter().map(|s| s * s).sum::<f64>().sqrt();
     BoundaryLoop {
-        id,
+        id: 0,
         perimeter,
         vector_area: area.into(),
         diameter: (bounds.hi - bounds.lo).norm(),
         planarity: if total > 0.0 { spread[2] / total } else { 0.0 },
-        class: match (chain.is_closed, reversed.is_empty()) {
-            (false, _) => LoopClass::OpenChain,
-            (true, false) => LoopClass::NotOriented,
-            (true, true) => LoopClass::Simple,
-        },
+        class: LoopClass::Simple,
         vertices,
         halfedges,
-        reversed,
+        reversed: Vec::new(),
         host: None,
         bounds,
     }

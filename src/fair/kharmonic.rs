@@ -68,7 +68,7 @@ pub(crate) fn fair(
     )?;
     let (matrix, right_side) = match order {
         Order::One => membrane_equations(&domain, &domain.points[..domain.rim_count], interrupted)?,
-        _ => Operator::new(&domain, order).normal_equations(interrupted)?,
+        _ => Operator::new(&domain, order).normal_equations(&domain.points, interrupted)?,
     };
     let solution = solver.solve(matrix, &right_side)?;
     surface.points[surface.rim_count..].copy_from_slice(&solution);
@@ -89,6 +89,29 @@ pub(crate) fn extend_from_rim(
     let around = Surroundings::default();
     let domain = Domain::new(surface, &around, 0, Weights::Uniform, interrupted)?;
     let (matrix, right_side) = membrane_equations(&domain, rim_values, interrupted)?;
+    solver.solve(matrix, &right_side)
+}
+
+/// Extends values given at the rim and round it to the interior vertices, three at a time, by the minimum of
+/// the thin-plate energy: they go on with the slope that they have round the rim, and may leave its range.
+/// `around_values` belong to the points of `surroundings`.
+///
+/// # Errors
+/// [`crate::ErrorKind::Solver`] when the system cannot be solved.
+pub(crate) fn extend_with_slope(
+    surface: &PatchSurface,
+    surroundings: &Surroundings,
+    rim_values: &[Vec3],
+    around_values: &[Vec3],
+    solver: &mut SpdSolver<'_>,
+) -> Result<Vec<Vec3>> {
+    let interrupted = solver.interrupted();
+    let domain = Domain::new(surface, surroundings, 1, Weights::Cotangent, interrupted)?;
+    let mut values = vec![Vec3::zeros(); domain.vertex_count()];
+    values[..domain.rim_count].copy_from_slice(rim_values);
+    values[domain.patch_count..].copy_from_slice(around_values);
+    let operator = Operator::new(&domain, Order::Two);
+    let (matrix, right_side) = operator.normal_equations(&values, interrupted)?;
     solver.solve(matrix, &right_side)
 }
 
@@ -159,15 +182,16 @@ impl<'a> Operator<'a> {
         }
     }
 
-    /// Matrix and right-hand side over the interior vertices.
+    /// Matrix and right-hand side over the interior vertices; the others keep their `values`.
     fn normal_equations(
         &self,
+        values: &[Vec3],
         interrupted: &dyn Fn() -> bool,
     ) -> Result<(SymmetricMatrix, Vec<Vec3>)> {
         let domain = self.domain;
         let mut fixed = vec![Vec3::zeros(); domain.vertex_count()];
         for v in self.fixed_vertices() {
-            let p = domain.points[v];
+            let p = values[v];
             let mut diagonal = 0.0;
             for e in domain.row(v) {
                 diagonal += e.weight;

@@ -22,6 +22,9 @@ const ROWS_PER_CHECK: usize = 1 << 13;
 pub(crate) enum Weights {
     /// One for each edge, and area one for each vertex: needs no shape, so it serves as a start.
     Uniform,
+    /// One for each edge, and as area of a vertex the number of its edges: with order two the second-order
+    /// umbrella vector of every interior vertex vanishes at the minimum.
+    Umbrella,
     /// Half the cotangents of the opposite angles, and a third of the triangles' areas.
     Cotangent,
 }
@@ -139,7 +142,7 @@ impl Domain {
                 proceed_unless(interrupted)?;
             }
             let (cotangents, area) = match weights {
-                Weights::Uniform => ([1.0; 3], 0.0),
+                Weights::Uniform | Weights::Umbrella => ([1.0; 3], 0.0),
                 Weights::Cotangent => cotangents_and_area(t.map(|v| &self.points[v as usize])),
             };
             for k in 0..3 {
@@ -165,7 +168,7 @@ impl Domain {
             for same in row.chunk_by(|a, b| a.column == b.column) {
                 self.is_complete[v] &= same.len() == 2;
                 let weight = match weights {
-                    Weights::Uniform => 1.0,
+                    Weights::Uniform | Weights::Umbrella => 1.0,
                     Weights::Cotangent => same.iter().map(|e| e.weight).sum(),
                 };
                 self.entries.push(Entry {
@@ -177,6 +180,11 @@ impl Domain {
         }
         match weights {
             Weights::Uniform => self.areas.fill(1.0),
+            Weights::Umbrella => {
+                for (area, ends) in self.areas.iter_mut().zip(self.row_starts.windows(2)) {
+                    *area = f64::from(ends[1] - ends[0]).max(1.0);
+                }
+            }
             Weights::Cotangent => {
                 let mean = self.areas.iter().sum::<f64>() / count.max(1) as f64;
                 for area in &mut self.areas {

@@ -4,25 +4,65 @@ use crate::boundary::loops::BoundaryLoop;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec3, cross_normal, unit};
 use crate::mesh::connectivity::target;
-use crate::mesh::rings::collect_rings;
+use crate::mesh::rings::{Reach, collect_rings};
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::{HoleShape, Surroundings};
 
+/// How much of the mesh round a hole a method reads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct HoleReach {
+    /// Rings of triangles, all of each.
+    pub(crate) rings: u32,
+    /// Besides, the triangles that touch a vertex nearer to the rim than so many sampling steps (see
+    /// [`HoleShape::sampling_step`]).
+    pub(crate) steps: f64,
+}
+
+impl HoleReach {
+    /// So many rings, and no more.
+    pub(crate) fn rings(rings: u32) -> Self {
+        Self { rings, steps: 0.0 }
+    }
+
+    /// What covers both.
+    pub(crate) fn union(self, other: Self) -> Self {
+        Self {
+            rings: self.rings.max(other.rings),
+            steps: self.steps.max(other.steps),
+        }
+    }
+}
+
+/// Known triangles round a hole, and which vertices of the mesh theirs are.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Band {
+    /// Where they are, in the hole's coordinates.
+    pub(crate) surroundings: Surroundings,
+    /// The vertex of the mesh behind each of the points.
+    pub(crate) vertices: Vec<u32>,
+}
+
 /// A hole, its place in the mesh, and its shape in coordinates of its own.
+#[derive(Clone)]
 pub(crate) struct Hole {
     /// Rim vertices in the mesh; rim vertex `i` of a patch is `rim[i]`.
     pub(crate) rim: Vec<u32>,
     /// Triangle of the mesh at each edge of the shape's polygon; `None` along the bridges to islands.
     pub(crate) outside_faces: Vec<Option<u32>>,
+    /// The boundary halfedges of the rim.
+    pub(super) halfedges: Vec<u32>,
+    pub(super) rim_index: LocalIndex,
     /// What the methods see.
     pub(crate) shape: HoleShape,
-    center: Vec3,
-    scale: f64,
+    pub(super) center: Vec3,
+    pub(super) scale: f64,
+    /// False for a polyline: there are no triangles along its rim.
+    pub(super) is_in_mesh: bool,
 }
 
 impl Hole {
-    /// Cuts out the hole that `outer` bounds, together with the loose sheets that `islands` bound and
-    /// `ring_count` rings of triangles round it.
+    /// Cuts out the hole that `outer` bounds, together with the loose sheets that `islands` bound and the
+    /// triangles round it as far as `reach` says.
     ///
     /// # Errors
     /// [`ErrorKind::InvalidInput`] for fewer than three edges, [`ErrorKind::Geometry`] when all vertices of
@@ -31,7 +71,7 @@ impl Hole {
         mesh: &TriMesh,
         outer: &BoundaryLoop,
         islands: &[&BoundaryLoop],
-        ring_count: u32,
+        reach: HoleReach,
     ) -> Result<Self> {
         if outer.edge_count() < 3 {
             return Err(Error::new(
@@ -79,47 +119,67 @@ impl Hole {
             })
             .collect();
 
-        let rim_halfedges: Vec<u32> = [outer]
+        let halfedges: Vec<u32> = [outer]
             .iter()
             .chain(islands)
             .flat_map(|l| l.halfedges.iter().copied())
             .collect();
-        let rings = collect_rings(mesh, &rim_halfedges, ring_count);
-        let mut surroundings = Surroundings::default();
-        let mut local = Vec::with_capacity(rings.levels.len());
-        for &(v, level) in &rings.levels {
-            local.push(match rim_index.get(v) {
-                Some(i) => (v, i),
-                None => {
-                    surroundings.points.push(to_local(v));
-                    surroundings.levels.push(level);
-                    (v, (rim.len() + surroundings.points.len() - 1) as u32)
-                }
-            });
-        }
-        let local = LocalIndex::new(local);
-        surroundings.triangles = rings
-            .faces
-            .iter()
-            .map(|&(f, _)| mesh.triangles()[f as usize].map(|v| local.get(v).unwrap_or(0)))
-            .collect();
         let points: Vec<Vec3> = rim.iter().map(|&v| to_local(v)).collect();
-        let edge_lengths = mean_edge_lengths(&points, &surroundings);
         let joined = joined_rim_vertices(mesh, &rim, &rim_index);
-        Ok(Self {
+        let mut hole = Self {
             rim,
             outside_faces,
+            halfedges,
+            rim_index,
             shape: HoleShape {
                 points,
                 polygon: polygon_indices,
                 outside_normals,
-                edge_lengths,
-                surroundings,
                 joined,
+                ..HoleShape::default()
             },
             center,
             scale,
-        })
+            is_in_mesh: true,
+        };
+        hole.shape.surroundings = hole
+            .band(mesh, Reach::rings(reach.rings.max(1)))
+            .surroundings;
+        if reach.steps > 0.0 {
+            let reach = Reach {
+                rings: reach.rings,
+                distance: reach.steps * hole.shape.sampling_step() * scale,
+            };
+            hole.shape.surroundings = hole.band(mesh, reach).surroundings;
+        }
+        hole.shape.edge_lengths = mean_edge_lengths(&hole.shape.points, &hole.shape.surroundings);
+        Ok(hole)
+    }
+
+    /// The triangles of `mesh` round the hole as far as `reach` says.
+    pub(crate) fn band(&self, mesh: &TriMesh, reach: Reach) -> Band {
+        let rings = collect_rings(mesh, &self.halfedges, reach);
+        let mut band = Band::default();
+        let mut local = Vec::with_capacity(rings.levels.len());
+        for &(v, level) in &rings.levels {
+            local.push(match self.rim_index.get(v) {
+                Some(i) => (v, i),
+                None => {
+                    let point = (mesh.point(v) - self.center) / self.scale;
+                    band.surroundings.points.push(point);
+                    band.surroundings.levels.push(level);
+                    band.vertices.push(v);
+                    (v, (self.rim.len() + band.vertices.len() - 1) as u32)
+                }
+            });
+        }
+        let local = LocalIndex::new(local);
+        band.surroundings.triangles = rings
+            .faces
+            .iter()
+            .map(|&(f, _)| mesh.triangles()[f as usize].map(|v| local.get(v).unwrap_or(0)))
+            .collect();
+        band
     }
 
     /// The position in the mesh of a point in the hole's coordinates.
@@ -237,10 +297,11 @@ fn distinct(values: &[u32]) -> Vec<u32> {
 }
 
 /// Local numbers of mesh vertices.
-struct LocalIndex(Vec<(u32, u32)>);
+#[derive(Clone)]
+pub(super) struct LocalIndex(Vec<(u32, u32)>);
 
 impl LocalIndex {
-    fn new(mut pairs: Vec<(u32, u32)>) -> Self {
+    pub(super) fn new(mut pairs: Vec<(u32, u32)>) -> Self {
         pairs.sort_unstable();
         Self(pairs)
     }

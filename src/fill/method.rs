@@ -19,16 +19,22 @@ pub enum Method {
     FairC1,
     /// Refined, then faired to meet the surroundings with common curvature.
     FairC2,
+    /// The rim unfolded to the plane and triangulated there; refined, of least area.
+    UnfoldArea,
+    /// The rim unfolded to the plane and triangulated there; refined, faired by the second-order umbrella.
+    UnfoldFairing,
 }
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 7] = [
         Self::Auto,
         Self::Flat,
         Self::Membrane,
         Self::FairC1,
         Self::FairC2,
+        Self::UnfoldArea,
+        Self::UnfoldFairing,
     ];
 
     /// The name used on the command line and in reports.
@@ -40,6 +46,8 @@ impl Method {
             Self::Membrane => "membrane",
             Self::FairC1 => "fair-c1",
             Self::FairC2 => "fair-c2",
+            Self::UnfoldArea => "unfold-area",
+            Self::UnfoldFairing => "unfold-fairing",
         }
     }
 
@@ -54,6 +62,12 @@ impl Method {
             }
             Self::FairC1 => "refine, then fair with a common tangent plane along the rim",
             Self::FairC2 => "refine, then fair with common curvature along the rim",
+            Self::UnfoldArea => {
+                "unfold the rim to the plane, triangulate there; refined, of least area"
+            }
+            Self::UnfoldFairing => {
+                "unfold the rim to the plane, triangulate there; refined and faired"
+            }
         }
     }
 }

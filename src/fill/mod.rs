@@ -1,14 +1,17 @@
 //! Filling holes: options, planning, verification, stitching, report.
 
-mod carry;
+mod attributes;
 mod hole;
+mod index;
 pub(crate) mod method;
 mod methods;
 pub(crate) mod options;
 pub(crate) mod pipeline;
 mod plan;
+mod polyline;
 pub(crate) mod progress;
 pub(crate) mod report;
+pub(crate) mod session;
 mod stitch;
 mod verify;
 

@@ -1,22 +1,18 @@
 //! Fills the chosen holes of a mesh: plans in parallel on the unchanged mesh, then stitches in order.
 
-use super::options::FillOptions;
+use super::index::MeshIndex;
+use super::options::{FillOptions, FilledAttributes};
 use super::plan::{Failure, Plan, Planner, chain};
-use super::progress::{Progress, ProgressCallback};
+use super::progress::{ProgressCallback, Watch};
 use super::report::{FillReport, HoleReport, HoleStatus};
-use super::stitch::Stitcher;
+use super::stitch::{Outcome, Stitcher};
 use crate::boundary::classify::LoopClass;
 use crate::boundary::loops::{BoundaryLoop, BoundaryLoops};
 use crate::boundary::select::Selection;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::connectivity::{BOUNDARY, origin, target};
 use crate::mesh::trimesh::TriMesh;
-use crate::quality::Surface;
-use crate::quality::spatial::FaceIndex;
 use rayon::prelude::*;
-use std::ops::ControlFlow;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// Fills the holes of `mesh` that `selection` chooses among the loops in `boundary`.
@@ -36,7 +32,7 @@ use std::time::Instant;
 ///
 /// # Errors
 /// [`ErrorKind::InvalidInput`] when the selection names an edge that is on no loop, when `boundary` is not that
-/// of `mesh`, when an option is out of its range, or when the thread pool cannot be made. The mesh is then
+/// of `mesh`, when an option is out of its range or names an attribute that `mesh` lacks, or when the thread pool cannot be made. The mesh is then
 /// unchanged. What goes wrong with a single hole is not an error of the call.
 ///
 /// # Complexity
@@ -50,9 +46,11 @@ pub fn fill_holes(
     progress: Option<ProgressCallback<'_>>,
 ) -> Result<FillReport> {
     options.check()?;
+    check_attribute_names(mesh, options)?;
     check_boundary(mesh, boundary)?;
     let kept = selection.reasons_to_keep(boundary)?;
-    let holes = group_holes(boundary, &kept, options);
+    let chosen: Vec<usize> = (0..kept.len()).filter(|&id| kept[id].is_none()).collect();
+    let holes = group_holes(boundary, &chosen, options);
     let mut report = FillReport {
         holes: boundary
             .loops
@@ -65,62 +63,138 @@ pub fn fill_holes(
     if holes.is_empty() {
         return Ok(report);
     }
-    let pool = rayon::ThreadPoolBuilder::new()
+    let pool = thread_pool(options)?;
+    let start = Instant::now();
+    let watch = Watch::new(holes.len(), options.time_budget, progress);
+    let work = Work {
+        options,
+        pool: &pool,
+        watch: &watch,
+    };
+    let index = pool.install(|| MeshIndex::build_unless(mesh, &|| watch.is_interrupted()));
+    report.index_seconds = start.elapsed().as_secs_f64();
+
+    let start = Instant::now();
+    match index {
+        Ok(index) => {
+            let planned_at = mesh.triangles().len();
+            let planned = work.plan(mesh, &index, &holes);
+            work.stitch(mesh, &index, planned_at, &holes, planned, &mut report.holes);
+        }
+        Err(error) => {
+            let outcome = Outcome::failed(watch.explain(error), Vec::new());
+            for hole in &holes {
+                outcome.record_all(hole, 0.0, &mut report.holes);
+            }
+        }
+    }
+    report.fill_seconds = start.elapsed().as_secs_f64();
+    Ok(report)
+}
+
+/// The threads that `options` asks for.
+///
+/// # Errors
+/// [`ErrorKind::Limit`] when they cannot be started.
+pub(super) fn thread_pool(options: &FillOptions) -> Result<rayon::ThreadPool> {
+    rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads)
         .build()
         .map_err(|e| {
             let message = format!("cannot start {} threads: {e}", options.threads);
             Error::new(ErrorKind::Limit, message)
-        })?;
-    let start = Instant::now();
-    let surface = Surface {
-        points: mesh.points(),
-        triangles: mesh.triangles(),
-    };
-    let faces = pool.install(|| FaceIndex::build(surface));
-    report.index_seconds = start.elapsed().as_secs_f64();
+        })
+}
 
-    let start = Instant::now();
-    let meter = Meter::new(holes.len(), progress);
-    let interrupted = || meter.is_cancelled();
-    let planner = Planner {
-        mesh,
-        faces: &faces,
-        options,
-        interrupted: &interrupted,
-    };
-    let methods = chain(options);
-    let plan = |hole: &HoleLoops<'_>| {
-        let start = Instant::now();
-        let outcome = if meter.is_cancelled() {
-            Err(Failure {
-                error: Error::cancelled(),
-                tried: Vec::new(),
-            })
-        } else {
-            planner.plan(hole.outer, &hole.islands, &methods)
+/// A patch or the reason why there is none, and the seconds that it took.
+pub(super) type Planned = (std::result::Result<Plan, Failure>, f64);
+
+/// What filling needs besides the mesh.
+pub(super) struct Work<'a> {
+    pub(super) options: &'a FillOptions,
+    pub(super) pool: &'a rayon::ThreadPool,
+    pub(super) watch: &'a Watch<'a>,
+}
+
+impl Work<'_> {
+    /// Plans the patches of all holes on the unchanged mesh, in parallel.
+    pub(super) fn plan(
+        &self,
+        mesh: &TriMesh,
+        index: &MeshIndex,
+        holes: &[HoleLoops<'_>],
+    ) -> Vec<Planned> {
+        self.plan_by(mesh, index, holes, |planner, hole| {
+            planner.plan(hole.outer, &hole.islands, &chain(self.options))
+        })
+    }
+
+    /// As [`plan`](Self::plan), for anything that `make` can plan.
+    pub(super) fn plan_by<H: Sync>(
+        &self,
+        mesh: &TriMesh,
+        index: &MeshIndex,
+        holes: &[H],
+        make: impl Fn(&Planner<'_>, &H) -> std::result::Result<Plan, Failure> + Sync,
+    ) -> Vec<Planned> {
+        let interrupted = || self.watch.is_interrupted();
+        let planner = Planner {
+            mesh,
+            index,
+            options: self.options,
+            interrupted: &interrupted,
         };
-        meter.advance();
-        (outcome, start.elapsed().as_secs_f64())
-    };
-    // One thread is the caller's own: its memory is warm, and callbacks come from where the call came.
-    let planned: Vec<(std::result::Result<Plan, Failure>, f64)> = if options.threads == 1 {
-        holes.iter().map(plan).collect()
-    } else {
-        pool.install(|| holes.par_iter().with_max_len(1).map(plan).collect())
-    };
-    let plans: Vec<Option<&Plan>> = planned.iter().map(|(p, _)| p.as_ref().ok()).collect();
-    let mut stitcher = Stitcher::new(mesh, &faces, options, &interrupted, &plans);
-    for (i, (hole, (plan, seconds))) in holes.iter().zip(planned).enumerate() {
-        let start = Instant::now();
-        let outcome = stitcher.stitch(i, hole, plan);
-        let seconds = seconds + start.elapsed().as_secs_f64();
-        for l in std::iter::once(&hole.outer).chain(&hole.islands) {
-            outcome.record(&mut report.holes[l.id], hole.outer.id, seconds);
+        let plan = |hole: &H| {
+            let start = Instant::now();
+            let outcome = if self.watch.is_interrupted() {
+                Err(Error::cancelled().into())
+            } else {
+                make(&planner, hole)
+            };
+            self.watch.advance();
+            let outcome = outcome.map_err(|failure| self.explain(failure));
+            (outcome, start.elapsed().as_secs_f64())
+        };
+        // One thread is the caller's own: its memory is warm.
+        if self.options.threads == 1 {
+            holes.iter().map(plan).collect()
+        } else {
+            let plan_all = || holes.par_iter().with_max_len(1).map(plan).collect();
+            self.pool.install(plan_all)
         }
     }
-    report.fill_seconds = start.elapsed().as_secs_f64();
-    Ok(report)
+
+    /// Appends the planned patches in order and enters in `reports`, by the ids of the loops, how it went.
+    ///
+    /// `planned_at` is the number of triangles when the patches were planned.
+    pub(super) fn stitch(
+        &self,
+        mesh: &mut TriMesh,
+        index: &MeshIndex,
+        planned_at: usize,
+        holes: &[HoleLoops<'_>],
+        planned: Vec<Planned>,
+        reports: &mut [HoleReport],
+    ) {
+        let interrupted = || self.watch.is_interrupted();
+        let plans: Vec<Option<&Plan>> = planned.iter().map(|(p, _)| p.as_ref().ok()).collect();
+        let mut stitcher =
+            Stitcher::new(mesh, index, self.options, &interrupted, &plans, planned_at);
+        for (i, (hole, (plan, seconds))) in holes.iter().zip(planned).enumerate() {
+            let start = Instant::now();
+            let explain = |error| self.watch.explain(error);
+            let outcome = stitcher.stitch(i, hole, plan).explained(explain);
+            let seconds = seconds + start.elapsed().as_secs_f64();
+            outcome.record_all(hole, seconds, reports);
+        }
+    }
+
+    fn explain(&self, failure: Failure) -> Failure {
+        Failure {
+            error: self.watch.explain(failure.error),
+            tried: failure.tried,
+        }
+    }
 }
 
 /// A hole to fill: a loop and the loose sheets inside it.
@@ -129,29 +203,31 @@ pub(super) struct HoleLoops<'a> {
     pub(super) islands: Vec<&'a BoundaryLoop>,
 }
 
-/// The holes to fill: every chosen loop, islands together with the loop that they lie in.
-fn group_holes<'a>(
+/// The holes to fill: every loop of the ascending ids `chosen`, islands together with the loop that they lie in.
+///
+/// Cost follows the chosen loops.
+pub(super) fn group_holes<'a>(
     boundary: &'a BoundaryLoops,
-    kept: &[Option<String>],
+    chosen: &[usize],
     options: &FillOptions,
 ) -> Vec<HoleLoops<'a>> {
-    let is_chosen =
-        |id: usize| kept[id].is_none() && unfillable_reason(boundary.loops[id].class).is_none();
+    let is_chosen = |id: usize| {
+        chosen.binary_search(&id).is_ok() && unfillable_reason(boundary.loops[id].class).is_none()
+    };
+    let loops = || chosen.iter().map(|&id| &boundary.loops[id]);
     let host_of = |l: &BoundaryLoop| {
         l.host.filter(|&host| {
             options.join_islands && is_chosen(host) && boundary.loops[host].host.is_none()
         })
     };
-    let mut holes: Vec<HoleLoops<'a>> = boundary
-        .loops
-        .iter()
+    let mut holes: Vec<HoleLoops<'a>> = loops()
         .filter(|l| is_chosen(l.id) && host_of(l).is_none())
         .map(|outer| HoleLoops {
             outer,
             islands: Vec::new(),
         })
         .collect();
-    for island in boundary.loops.iter().filter(|l| is_chosen(l.id)) {
+    for island in loops().filter(|l| is_chosen(l.id)) {
         if let Some(host) = host_of(island)
             && let Ok(i) = holes.binary_search_by_key(&host, |h| h.outer.id)
         {
@@ -161,7 +237,7 @@ fn group_holes<'a>(
     holes
 }
 
-fn unfillable_reason(class: LoopClass) -> Option<&'static str> {
+pub(super) fn unfillable_reason(class: LoopClass) -> Option<&'static str> {
     match class {
         LoopClass::NotOriented => Some("the triangles along the loop are not oriented alike"),
         LoopClass::OpenChain => {
@@ -171,10 +247,15 @@ fn unfillable_reason(class: LoopClass) -> Option<&'static str> {
     }
 }
 
-fn blank_report(l: &BoundaryLoop, kept: &Option<String>) -> HoleReport {
-    let (status, reason) = match (kept, unfillable_reason(l.class)) {
-        (Some(reason), _) => (HoleStatus::Kept, reason.clone()),
-        (None, reason) => (HoleStatus::Failed, reason.unwrap_or_default().to_owned()),
+pub(super) fn blank_report(l: &BoundaryLoop, kept: &Option<String>) -> HoleReport {
+    let unfillable = unfillable_reason(l.class);
+    let (status, reason, cause) = match (kept, unfillable) {
+        (Some(reason), _) => (HoleStatus::Kept, reason.clone(), None),
+        (None, reason) => (
+            HoleStatus::Failed,
+            reason.unwrap_or_default().to_owned(),
+            reason.map(|_| ErrorKind::Topology),
+        ),
     };
     HoleReport {
         id: l.id,
@@ -184,6 +265,7 @@ fn blank_report(l: &BoundaryLoop, kept: &Option<String>) -> HoleReport {
         class: l.class,
         status,
         reason,
+        cause,
         method: None,
         tried: Vec::new(),
         new_vertices: 0..0,
@@ -191,6 +273,24 @@ fn blank_report(l: &BoundaryLoop, kept: &Option<String>) -> HoleReport {
         self_intersections: 0,
         min_angle: None,
         seconds: 0.0,
+    }
+}
+
+pub(super) fn check_attribute_names(mesh: &TriMesh, options: &FillOptions) -> Result<()> {
+    let FilledAttributes::Only(names) = &options.attributes.filled else {
+        return Ok(());
+    };
+    let attributes = mesh.vertex_attributes();
+    match names.iter().find(|name| attributes.get(name).is_none()) {
+        None => Ok(()),
+        Some(name) => {
+            let known: Vec<&str> = attributes.iter().map(|a| a.name.as_str()).collect();
+            let message = format!(
+                "there is no vertex attribute '{name}' to fill; there are: {}",
+                known.join(", ")
+            );
+            Err(Error::new(ErrorKind::InvalidInput, message))
+        }
     }
 }
 
@@ -220,44 +320,4 @@ fn check_boundary(mesh: &TriMesh, boundary: &BoundaryLoops) -> Result<()> {
 
 fn invalid(message: String) -> Error {
     Error::new(ErrorKind::InvalidInput, message)
-}
-
-/// Counts finished holes, tells the caller, and remembers whether it asked to stop.
-struct Meter<'a> {
-    progress: Mutex<Progress>,
-    callback: Option<ProgressCallback<'a>>,
-    cancelled: AtomicBool,
-}
-
-impl<'a> Meter<'a> {
-    fn new(holes_total: usize, callback: Option<ProgressCallback<'a>>) -> Self {
-        let progress = Mutex::new(Progress {
-            holes_done: 0,
-            holes_total,
-        });
-        Self {
-            progress,
-            callback,
-            cancelled: AtomicBool::new(false),
-        }
-    }
-
-    fn is_cancelled(&self) -> bool {
-        self.cancelled.load(Ordering::Relaxed)
-    }
-
-    fn advance(&self) {
-        let Some(callback) = self.callback else {
-            return;
-        };
-        // Held during the call, so that the caller sees one call at a time and counts that only grow.
-        let mut progress = self
-            .progress
-            .lock()
-            .unwrap_or_else(|poisoned| poisoned.into_inner());
-        progress.holes_done += 1;
-        if callback(*progress) == ControlFlow::Break(()) {
-            self.cancelled.store(true, Ordering::Relaxed);
-        }
-    }
 }

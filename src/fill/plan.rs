@@ -1,8 +1,9 @@
 //! Finds the patch for one hole without touching the mesh: methods in turn until one gives a patch that
 //! passes every check.
 
-use super::carry::{CarriedAttributes, carry};
-use super::hole::Hole;
+use super::attributes::{AttributeTask, CarriedAttributes};
+use super::hole::{Hole, HoleReach};
+use super::index::MeshIndex;
 use super::method::Method;
 use super::methods::PatchMaker;
 use super::options::FillOptions;
@@ -14,12 +15,11 @@ use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::Vec3;
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::PatchSurface;
-use crate::quality::Surface;
-use crate::quality::self_intersection::{AppendedPatch, SelfIntersections, count_unless};
+use crate::quality::self_intersection::{AppendedPatch, SelfIntersections};
 use crate::quality::shape::smallest_angle;
-use crate::quality::spatial::FaceIndex;
 
 /// A patch that may be stitched into the mesh.
+#[derive(Clone)]
 pub(crate) struct Plan {
     pub(crate) hole: Hole,
     pub(crate) method: Method,
@@ -34,6 +34,10 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
+    pub(crate) fn triangle_count(&self) -> usize {
+        self.triangles.len()
+    }
+
     /// The triangles in the indices of a mesh with `vertex_count` vertices before the new ones.
     pub(crate) fn triangles(&self, vertex_count: usize) -> Vec<[u32; 3]> {
         global_triangles(&self.hole, &self.triangles, vertex_count)
@@ -41,9 +45,19 @@ impl Plan {
 }
 
 /// Why there is no plan, and what was tried.
+#[derive(Clone)]
 pub(crate) struct Failure {
     pub(crate) error: Error,
     pub(crate) tried: Vec<Attempt>,
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self {
+            error,
+            tried: Vec::new(),
+        }
+    }
 }
 
 /// The methods to try, best first: the chosen one, then the simpler ones.
@@ -58,21 +72,27 @@ pub(crate) fn chain(options: &FillOptions) -> Vec<Method> {
         Method::Auto => Method::FairC1,
         method => method,
     };
-    let last = if options.fallback { staircase.len() } else { 0 };
-    let later = staircase
-        .iter()
-        .position(|&m| m == first)
-        .map_or(0, |i| i + 1);
-    [first]
-        .into_iter()
-        .chain(staircase[later.min(last)..last].iter().copied())
-        .collect()
+    let later: &[Method] = match first {
+        _ if !options.fallback => &[],
+        Method::UnfoldFairing => &[
+            Method::UnfoldArea,
+            Method::FairC1,
+            Method::Membrane,
+            Method::Flat,
+        ],
+        Method::UnfoldArea => &[Method::Membrane, Method::Flat],
+        _ => {
+            let place = staircase.iter().position(|&m| m == first);
+            &staircase[place.map_or(0, |i| i + 1)..]
+        }
+    };
+    [first].into_iter().chain(later.iter().copied()).collect()
 }
 
 /// What planning needs besides the hole.
 pub(crate) struct Planner<'a> {
     pub(crate) mesh: &'a TriMesh,
-    pub(crate) faces: &'a FaceIndex,
+    pub(crate) index: &'a MeshIndex,
     pub(crate) options: &'a FillOptions,
     /// Asked from time to time; true stops the work.
     pub(crate) interrupted: &'a (dyn Fn() -> bool + Sync),
@@ -88,12 +108,23 @@ impl Planner<'_> {
         islands: &[&BoundaryLoop],
         methods: &[Method],
     ) -> std::result::Result<Plan, Failure> {
+        let reach = methods
+            .iter()
+            .map(|&m| PatchMaker::reach(m))
+            .fold(HoleReach::rings(1), HoleReach::union);
+        match Hole::new(self.mesh, outer, islands, reach) {
+            Ok(hole) => self.plan_hole(hole, methods),
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    /// As [`plan`](Self::plan), for a hole that was cut out already.
+    pub(crate) fn plan_hole(
+        &self,
+        hole: Hole,
+        methods: &[Method],
+    ) -> std::result::Result<Plan, Failure> {
         let mut tried = Vec::new();
-        let rings = methods.first().map_or(1, |&m| PatchMaker::ring_count(m));
-        let hole = match Hole::new(self.mesh, outer, islands, rings) {
-            Ok(hole) => hole,
-            Err(error) => return Err(Failure { error, tried }),
-        };
         let mut maker = PatchMaker::new(&hole.shape, self.options, self.interrupted);
         let mut best: Option<(Candidate, usize)> = None;
         let mut last_error = None;
@@ -131,7 +162,7 @@ impl Planner<'_> {
         if candidate.intersections.total() > 0 {
             tried.remove(position);
         }
-        Ok(self.finish(hole, candidate, tried))
+        self.finish(hole, candidate, tried)
     }
 
     fn candidate(
@@ -152,11 +183,9 @@ impl Planner<'_> {
             points: &points,
             triangles: &triangles,
         };
-        let mesh = Surface {
-            points: self.mesh.points(),
-            triangles: self.mesh.triangles(),
-        };
-        let intersections = count_unless(mesh, self.faces, patch, self.interrupted)?;
+        let intersections = self
+            .index
+            .intersections(self.mesh, patch, self.interrupted)?;
         Ok(Candidate {
             method,
             surface,
@@ -165,21 +194,36 @@ impl Planner<'_> {
         })
     }
 
-    fn finish(&self, hole: Hole, candidate: Candidate, tried: Vec<Attempt>) -> Plan {
+    fn finish(
+        &self,
+        hole: Hole,
+        candidate: Candidate,
+        tried: Vec<Attempt>,
+    ) -> std::result::Result<Plan, Failure> {
         let Candidate {
             method,
             surface,
             points,
             intersections,
         } = candidate;
-        let attributes = carry(self.mesh, &hole, &surface);
+        let task = AttributeTask {
+            mesh: self.mesh,
+            hole: &hole,
+            surface: &surface,
+            options: &self.options.attributes,
+            interrupted: self.interrupted,
+        };
+        let attributes = match task.carry() {
+            Ok(attributes) => attributes,
+            Err(error) => return Err(Failure { error, tried }),
+        };
         let corners = |t: &[u32; 3]| t.map(|v| surface.points[v as usize]);
         let min_angle = surface
             .triangles
             .iter()
             .map(|t| smallest_angle(&corners(t)))
             .fold(std::f64::consts::PI, f64::min);
-        Plan {
+        Ok(Plan {
             hole,
             method,
             tried,
@@ -188,7 +232,7 @@ impl Planner<'_> {
             self_intersections: intersections.total(),
             min_angle,
             attributes,
-        }
+        })
     }
 }
 

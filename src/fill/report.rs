@@ -2,6 +2,7 @@
 
 use super::method::Method;
 use crate::boundary::classify::LoopClass;
+use crate::error::ErrorKind;
 use std::ops::Range;
 
 /// How the filling of one hole ended.
@@ -57,6 +58,8 @@ pub struct HoleReport {
     pub status: HoleStatus,
     /// Why: for a filled hole what remains to be said (empty when nothing does).
     pub reason: String,
+    /// The kind of the error that kept the hole open, if it was one.
+    pub cause: Option<ErrorKind>,
     /// The method whose patch closes the hole.
     pub method: Option<Method>,
     /// The other methods tried, in order.

@@ -1,6 +1,7 @@
 //! Appends planned patches to the mesh, one after the other, so that the result does not depend on the
 //! order in which they were planned.
 
+use super::index::MeshIndex;
 use super::method::Method;
 use super::options::FillOptions;
 use super::pipeline::HoleLoops;
@@ -20,9 +21,11 @@ use std::ops::Range;
 /// Stitches planned patches into a mesh.
 pub(super) struct Stitcher<'a> {
     mesh: &'a mut TriMesh,
-    faces: &'a FaceIndex,
+    index: &'a MeshIndex,
     options: &'a FillOptions,
     interrupted: &'a (dyn Fn() -> bool + Sync),
+    /// Triangles that were appended after the patches were planned, and their index.
+    since: Option<(Range<usize>, FaceIndex)>,
     /// Boxes of all planned patches.
     boxes: BoxTree,
     /// Holes whose patch is not the planned one, with its box.
@@ -35,6 +38,7 @@ pub(super) struct Stitcher<'a> {
 pub(super) struct Outcome {
     status: HoleStatus,
     reason: String,
+    cause: Option<ErrorKind>,
     tried: Vec<Attempt>,
     filled: Option<Filled>,
 }
@@ -48,22 +52,31 @@ struct Filled {
 }
 
 impl<'a> Stitcher<'a> {
+    /// `planned_at` is the number of triangles that the mesh had when the patches were planned; `index` knows the
+    /// mesh as it is.
     pub(super) fn new(
         mesh: &'a mut TriMesh,
-        faces: &'a FaceIndex,
+        index: &'a MeshIndex,
         options: &'a FillOptions,
         interrupted: &'a (dyn Fn() -> bool + Sync),
         plans: &[Option<&Plan>],
+        planned_at: usize,
     ) -> Self {
+        let appended = planned_at..mesh.triangles().len();
+        let since = (!appended.is_empty()).then(|| {
+            let tree = FaceIndex::build(part(mesh, appended.clone()));
+            (appended, tree)
+        });
         let boxes = BoxTree::build(plans.len(), |i| {
             plans[i].map_or_else(Aabb::empty, |plan| plan_box(mesh, plan))
         });
         let stitched = vec![0..0; plans.len()];
         Self {
             mesh,
-            faces,
+            index,
             options,
             interrupted,
+            since,
             boxes,
             replanned: Vec::new(),
             stitched,
@@ -83,7 +96,7 @@ impl<'a> Stitcher<'a> {
         };
         let mut with_patches = 0;
         let conflict = self.conflict(&plan).or_else(|| {
-            with_patches = self.intersections_with_patches(&plan);
+            with_patches = self.intersections_with_patches(&plan) + self.intersections_since(&plan);
             (with_patches > 0).then(|| {
                 let message =
                     format!("its patch intersects that of another hole {with_patches} times");
@@ -160,7 +173,7 @@ impl<'a> Stitcher<'a> {
     ) -> Result<(Plan, usize), Failure> {
         let planner = Planner {
             mesh: self.mesh,
-            faces: self.faces,
+            index: self.index,
             options: self.options,
             interrupted: self.interrupted,
         };
@@ -213,13 +226,23 @@ impl<'a> Stitcher<'a> {
             .map(|&i| self.stitched[i as usize].clone())
             .filter(|range| !range.is_empty())
             .map(|range| {
-                let other = Surface {
-                    points: self.mesh.points(),
-                    triangles: &self.mesh.triangles()[range],
-                };
+                let other = part(self.mesh, range);
                 count(other, &FaceIndex::build(other), patch).with_mesh
             })
             .sum()
+    }
+
+    /// Pairs of triangles of the patch and of what was appended after it was planned that intersect.
+    fn intersections_since(&self, plan: &Plan) -> usize {
+        let Some((range, tree)) = &self.since else {
+            return 0;
+        };
+        let triangles = plan.triangles(self.mesh.positions().len());
+        let patch = AppendedPatch {
+            points: &plan.points,
+            triangles: &triangles,
+        };
+        count(part(self.mesh, range.clone()), tree, patch).with_mesh
     }
 
     fn append(&mut self, index: usize, plan: Plan) -> Outcome {
@@ -239,20 +262,40 @@ impl<'a> Stitcher<'a> {
         Outcome {
             status: HoleStatus::Filled,
             reason: String::new(),
-            filled: Some(Filled {
-                method: plan.method,
-                new_vertices: vertices as u32..(vertices + points.len()) as u32,
-                new_triangles: faces as u32..(faces + triangles.len()) as u32,
-                self_intersections: plan.self_intersections,
-                min_angle: plan.min_angle,
-            }),
+            cause: None,
+            filled: Some(Filled::new(&plan, vertices, faces)),
             tried: plan.tried,
         }
     }
 }
 
+impl Filled {
+    /// The numbers of a patch that is appended to this many vertices and triangles.
+    fn new(plan: &Plan, vertices: usize, triangles: usize) -> Self {
+        let triangle_count = plan.triangle_count();
+        Self {
+            method: plan.method,
+            new_vertices: vertices as u32..(vertices + plan.points.len()) as u32,
+            new_triangles: triangles as u32..(triangles + triangle_count) as u32,
+            self_intersections: plan.self_intersections,
+            min_angle: plan.min_angle,
+        }
+    }
+}
+
 impl Outcome {
-    fn failed(error: Error, tried: Vec<Attempt>) -> Self {
+    /// What a plan promises, if it is appended to this many vertices and triangles.
+    pub(super) fn planned(plan: &Plan, vertices: usize, triangles: usize) -> Self {
+        Self {
+            status: HoleStatus::Filled,
+            reason: String::new(),
+            cause: None,
+            tried: plan.tried.clone(),
+            filled: Some(Filled::new(plan, vertices, triangles)),
+        }
+    }
+
+    pub(super) fn failed(error: Error, tried: Vec<Attempt>) -> Self {
         let status = match error.kind() {
             ErrorKind::Cancelled => HoleStatus::Cancelled,
             _ => HoleStatus::Failed,
@@ -260,14 +303,39 @@ impl Outcome {
         Self {
             status,
             reason: error.to_string(),
+            cause: Some(error.kind()),
             tried,
             filled: None,
         }
     }
 
+    /// With another error in the place of the one that kept the hole open.
+    pub(super) fn explained(mut self, explain: impl Fn(Error) -> Error) -> Self {
+        if let Some(cause) = self.cause {
+            let tried = std::mem::take(&mut self.tried);
+            return Self::failed(explain(Error::new(cause, self.reason)), tried);
+        }
+        self
+    }
+
+    /// Enters the outcome in the reports of all loops of the hole, which are ordered by the loops' ids.
+    pub(super) fn record_all(
+        &self,
+        hole: &HoleLoops<'_>,
+        seconds: f64,
+        reports: &mut [HoleReport],
+    ) {
+        for l in std::iter::once(&hole.outer).chain(&hole.islands) {
+            if let Ok(i) = reports.binary_search_by_key(&l.id, |r| r.id) {
+                self.record(&mut reports[i], hole.outer.id, seconds);
+            }
+        }
+    }
+
     /// Enters the outcome in the report of a loop of the hole; `outer` bounds the patch.
-    pub(super) fn record(&self, report: &mut HoleReport, outer: usize, seconds: f64) {
+    fn record(&self, report: &mut HoleReport, outer: usize, seconds: f64) {
         report.status = self.status;
+        report.cause = self.cause;
         report.reason.clone_from(&self.reason);
         if report.id != outer {
             report.reason = match self.status {
@@ -289,6 +357,13 @@ impl Outcome {
                     format!("{} pairs of triangles intersect", filled.self_intersections);
             }
         }
+    }
+}
+
+fn part(mesh: &TriMesh, range: Range<usize>) -> Surface<'_> {
+    Surface {
+        points: mesh.points(),
+        triangles: &mesh.triangles()[range],
     }
 }
 

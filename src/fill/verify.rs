@@ -139,7 +139,7 @@ pub(crate) fn check_against_mesh(
     let m = hole.shape.polygon.len();
     let at = |i: usize| hole.rim[hole.shape.polygon[i % m] as usize];
     let mut rim_edges = Vec::with_capacity(m);
-    for i in (0..m).filter(|&i| hole.outside_faces[i].is_some()) {
+    for i in (0..m).filter(|&i| hole.is_in_mesh && hole.outside_faces[i].is_some()) {
         let (a, b) = (at(i), at(i + 1));
         let known = mesh.connectivity().outgoing(b).find(|o| o.target == a);
         if known.is_none_or(|o| mesh.connectivity().twin(o.halfedge) != BOUNDARY) {

@@ -3,8 +3,8 @@
 pub(crate) mod aabb;
 pub(crate) mod box_tree;
 pub(crate) mod plane;
-#[allow(dead_code)] // until a method uses it
 pub(crate) mod random;
+pub(crate) mod segments;
 pub(crate) mod sparse;
 
 /// A point or direction; the type that all geometry is computed in.

@@ -70,6 +70,22 @@ impl AttributeValues {
         }
     }
 
+    /// Appends zero, or an empty list.
+    fn push_blank(&mut self) {
+        match self {
+            Self::Scalars(values) => values.push(0.0),
+            Self::Lists(lists) => lists.close_list(),
+        }
+    }
+
+    /// Keeps the first `count` entries.
+    fn truncate(&mut self, count: usize) {
+        match self {
+            Self::Scalars(values) => values.truncate(count),
+            Self::Lists(lists) => lists.truncate(count),
+        }
+    }
+
     /// Removes the first `count` entries, which must exist.
     fn drop_front(&mut self, count: usize) {
         match self {
@@ -201,6 +217,22 @@ impl Attributes {
         }
         self.len += sources.len();
         Ok(())
+    }
+
+    /// Appends `count` elements that are zero, or an empty list, in all columns.
+    pub(crate) fn append_blank(&mut self, count: usize) {
+        for column in &mut self.columns {
+            (0..count).for_each(|_| column.values.push_blank());
+        }
+        self.len += count;
+    }
+
+    /// Keeps the first `len` elements, which must exist.
+    pub(crate) fn truncate(&mut self, len: usize) {
+        self.columns
+            .iter_mut()
+            .for_each(|column| column.values.truncate(len));
+        self.len = len;
     }
 
     /// Replaces the elements by copies of those in `sources`, in that order.

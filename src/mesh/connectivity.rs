@@ -181,4 +181,24 @@ impl Connectivity {
             }
         }
     }
+
+    /// Takes back what [`append`](Self::append) did for the triangles from `first_face` on, which are still in
+    /// `triangles`. Cost follows their number.
+    pub(crate) fn truncate(&mut self, triangles: &[[u32; 3]], first_face: usize) {
+        let first_halfedge = 3 * first_face as u32;
+        for h in first_halfedge..self.twin.len() as u32 {
+            let opposite = self.twin[h as usize];
+            if opposite < first_halfedge {
+                self.twin[opposite as usize] = BOUNDARY;
+            }
+            let start = origin(triangles, h);
+            if let Some(outgoing) = self.appended.get_mut(&start) {
+                outgoing.retain(|o| o.halfedge < first_halfedge);
+                if outgoing.is_empty() {
+                    self.appended.remove(&start);
+                }
+            }
+        }
+        self.twin.truncate(first_halfedge as usize);
+    }
 }

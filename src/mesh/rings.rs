@@ -2,6 +2,26 @@
 
 use super::connectivity::{DEGENERATE, next, origin, previous};
 use super::trimesh::TriMesh;
+use crate::math::segments::Segments;
+
+/// How far the rings round a rim go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Reach {
+    /// Rings of triangles that are collected whole.
+    pub(crate) rings: u32,
+    /// Further rings have the triangles that touch a vertex nearer to the rim than this, in units of the mesh.
+    pub(crate) distance: f64,
+}
+
+impl Reach {
+    /// So many rings, and no more.
+    pub(crate) fn rings(rings: u32) -> Self {
+        Self {
+            rings,
+            distance: 0.0,
+        }
+    }
+}
 
 /// How a walk round a vertex came to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,10 +75,11 @@ pub(crate) struct Rings {
     pub(crate) levels: Vec<(u32, u32)>,
 }
 
-/// Collects `count` rings of triangles round the rim given by its boundary halfedges.
+/// Collects rings of triangles round the rim given by its boundary halfedges, as far as `reach` says.
 ///
-/// Cost follows the number of triangles collected, but for sorting them.
-pub(crate) fn collect_rings(mesh: &TriMesh, rim_halfedges: &[u32], count: u32) -> Rings {
+/// Cost follows the number of triangles collected, but for sorting them and, where the distance counts, a
+/// search among the rim's edges for each vertex.
+pub(crate) fn collect_rings(mesh: &TriMesh, rim_halfedges: &[u32], reach: Reach) -> Rings {
     let triangles = mesh.triangles();
     // A vertex with the halfedge through which it was met, so that the walk stays on its sheet. Each rim
     // vertex is the head of one rim halfedge.
@@ -71,7 +92,18 @@ pub(crate) fn collect_rings(mesh: &TriMesh, rim_halfedges: &[u32], count: u32) -
     levels.dedup();
     let mut faces: Vec<(u32, u32)> = Vec::new();
     let mut known_faces: Vec<u32> = Vec::new();
-    for ring in 0..count {
+    let mut rim_edges: Option<Segments> = None;
+    for ring in 0.. {
+        if ring >= reach.rings && reach.distance > 0.0 {
+            let rim_edges = rim_edges.get_or_insert_with(|| edges(mesh, rim_halfedges));
+            let limit = reach.distance * reach.distance;
+            frontier.retain(|&(v, _)| rim_edges.distance_sq(&mesh.point(v)) < limit);
+        } else if ring >= reach.rings {
+            break;
+        }
+        if frontier.is_empty() {
+            break;
+        }
         let mut met = Vec::new();
         for &(vertex, halfedge) in &frontier {
             if let FanEnd::At(_) = walk_fan(mesh, vertex, halfedge, |face| met.push(face)) {
@@ -104,4 +136,12 @@ pub(crate) fn collect_rings(mesh: &TriMesh, rim_halfedges: &[u32], count: u32) -
         known_faces.sort_unstable();
     }
     Rings { faces, levels }
+}
+
+fn edges(mesh: &TriMesh, halfedges: &[u32]) -> Segments {
+    let triangles = mesh.triangles();
+    let ends = halfedges
+        .iter()
+        .map(|&h| [origin(triangles, h), origin(triangles, next(h))].map(|v| mesh.point(v)));
+    Segments::new(ends.collect())
 }

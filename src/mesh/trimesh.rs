@@ -1,6 +1,6 @@
 //! A triangle mesh that was validated when it was built.
 
-use super::attributes::Attributes;
+use super::attributes::{AttributeValues, Attributes};
 use super::connectivity::Connectivity;
 use super::defects::MeshDefects;
 use crate::error::{Error, ErrorKind, Result};
@@ -92,6 +92,22 @@ impl TriMesh {
         &self.face_attributes
     }
 
+    /// Adds a column to the attributes of the vertices.
+    ///
+    /// # Errors
+    /// [`ErrorKind::InvalidInput`] as [`Attributes::push`]; nothing changes then.
+    pub fn add_vertex_attribute(&mut self, name: &str, values: AttributeValues) -> Result<()> {
+        self.vertex_attributes.push(name, values)
+    }
+
+    /// Adds a column to the attributes of the triangles.
+    ///
+    /// # Errors
+    /// [`ErrorKind::InvalidInput`] as [`Attributes::push`]; nothing changes then.
+    pub fn add_face_attribute(&mut self, name: &str, values: AttributeValues) -> Result<()> {
+        self.face_attributes.push(name, values)
+    }
+
     /// What was irregular when the mesh was built.
     #[must_use]
     pub fn defects(&self) -> &MeshDefects {
@@ -143,6 +159,18 @@ impl TriMesh {
         debug_assert_eq!(self.face_attributes.len(), self.triangles.len());
         self.connectivity.append(&self.triangles, first_face);
         Ok(())
+    }
+
+    /// Takes back what was appended after the mesh had this many vertices and triangles; the edges that it
+    /// closed are open again.
+    ///
+    /// Both must be numbers that the mesh had at one time after it was built. Cost follows what is removed.
+    pub(crate) fn truncate(&mut self, vertices: usize, triangles: usize) {
+        self.connectivity.truncate(&self.triangles, triangles);
+        self.positions.truncate(vertices);
+        self.triangles.truncate(triangles);
+        self.vertex_attributes.truncate(vertices);
+        self.face_attributes.truncate(triangles);
     }
 }
 

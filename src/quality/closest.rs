@@ -4,6 +4,7 @@
 //! too thin to have a trustworthy normal are treated as their edges, so that no input, however
 //! degenerate, gives anything but a point of the triangle.
 
+use crate::math::segments::closest_on_segment;
 use crate::math::{Vec3, cross_normal};
 
 /// Twice the area over the squared longest edge below which a triangle counts as its edges: the
@@ -31,18 +32,6 @@ pub(crate) fn closest_on_triangle(p: &Vec3, [a, b, c]: &[Vec3; 3]) -> Vec3 {
         }
     }
     best
-}
-
-/// The point of the segment from `a` to `b` closest to `p`.
-pub(crate) fn closest_on_segment(p: &Vec3, a: &Vec3, b: &Vec3) -> Vec3 {
-    let direction = b - a;
-    let length_sq = direction.norm_squared();
-    if length_sq > 0.0 {
-        let share = (direction.dot(&(p - a)) / length_sq).clamp(0.0, 1.0);
-        a + direction * share
-    } else {
-        *a
-    }
 }
 
 #[cfg(test)]

@@ -40,7 +40,6 @@ impl FaceIndex {
     ///
     /// # Errors
     /// `Cancelled` when it does.
-    #[allow(dead_code)] // until the pipeline uses it
     pub(crate) fn build_unless(
         surface: Surface<'_>,
         interrupted: &(dyn Fn() -> bool + Sync),

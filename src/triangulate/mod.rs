@@ -2,13 +2,12 @@
 
 mod ear_clip;
 mod min_weight;
-#[allow(dead_code)] // until a method uses it
 pub(crate) mod planar;
 mod polygon;
-#[allow(dead_code)]
 pub(crate) mod simple_polygon;
 #[cfg(test)]
 mod test_polygons;
+pub(crate) mod unfold;
 
 pub(crate) use polygon::{HolePolygon, Weight, weight_of};
 

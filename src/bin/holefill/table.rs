@@ -197,6 +197,7 @@ mod tests {
             class: LoopClass::Simple,
             status,
             reason: String::new(),
+            cause: None,
             method: None,
             tried: Vec::new(),
             new_vertices: 0..0,

@@ -1,16 +1,20 @@
 //! The methods: each makes a patch from the shape of a hole, whatever happens to the patch afterwards.
 
 mod staircase;
+mod unfold;
 
+use super::hole::HoleReach;
 use super::method::Method;
 use super::options::FillOptions;
 use crate::error::Result;
 use crate::patch::{HoleShape, PatchSurface};
 use staircase::Staircase;
+use unfold::Unfold;
 
 /// Makes patches for one hole by one method after the other; what several methods share is done once.
 pub(crate) struct PatchMaker<'a> {
     staircase: Staircase<'a>,
+    unfold: Unfold<'a>,
 }
 
 impl<'a> PatchMaker<'a> {
@@ -22,12 +26,13 @@ impl<'a> PatchMaker<'a> {
     ) -> Self {
         Self {
             staircase: Staircase::new(hole, options, interrupted),
+            unfold: Unfold::new(hole, options, interrupted),
         }
     }
 
-    /// Rings of triangles round the hole that `method` and those it falls back to read.
-    pub(crate) fn ring_count(method: Method) -> u32 {
-        if method == Method::FairC2 { 2 } else { 1 }
+    /// What `method` reads of the mesh round the hole.
+    pub(crate) fn reach(method: Method) -> HoleReach {
+        HoleReach::rings(if method == Method::FairC2 { 2 } else { 1 })
     }
 
     /// The patch of `method` in the hole's coordinates. It is not verified yet.
@@ -35,6 +40,9 @@ impl<'a> PatchMaker<'a> {
     /// # Errors
     /// Those of the method, and [`crate::ErrorKind::Cancelled`].
     pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
-        self.staircase.patch(method)
+        match method {
+            Method::UnfoldArea | Method::UnfoldFairing => self.unfold.patch(method),
+            _ => self.staircase.patch(method),
+        }
     }
 }

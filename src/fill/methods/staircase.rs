@@ -60,8 +60,8 @@ impl<'a> Staircase<'a> {
         let order = match method {
             Method::Flat => return self.triangulate(self.options.exact_limit, EAR_REMAINDER),
             Method::Membrane => Order::One,
-            Method::Auto | Method::FairC1 => Order::Two,
             Method::FairC2 => Order::Three,
+            _ => Order::Two,
         };
         let mut surface = self.refined()?;
         let mut solver = SpdSolver::new(self.interrupted);

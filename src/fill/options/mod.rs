@@ -1,13 +1,17 @@
 //! Options of a fill, and every parameter by its documented name.
 
+mod attributes;
 mod parameter;
 mod staircase;
+mod unfold;
 
+pub use attributes::{AttributeOptions, FilledAttributes, Interpolator};
 pub use parameter::Parameter;
 
 use super::method::Method;
 use crate::error::{Error, ErrorKind, Result};
-use parameter::{switch, switch_name};
+use crate::triangulate::unfold::UnfoldOptions;
+use parameter::{number, switch, switch_name};
 
 /// How holes are filled.
 ///
@@ -18,7 +22,7 @@ use parameter::{switch, switch_name};
 pub struct FillOptions {
     /// The method; default [`Method::Auto`].
     pub method: Method,
-    /// Seed of the methods that use random numbers; default 0. The methods of this version use none.
+    /// Seed of the methods that use random numbers; default 0.
     pub seed: u64,
     /// Threads that fill holes at the same time; 0 (the default) takes as many as there are processors,
     /// 1 fills them on the calling thread. Intersection tests of patches with more than a few hundred
@@ -39,6 +43,14 @@ pub struct FillOptions {
     pub grading: Option<f64>,
     /// Largest number of new vertices in one hole; default 10,000,000.
     pub max_new_vertices: usize,
+    /// Seconds that a fill may take; holes that are not finished then fail with [`ErrorKind::Limit`] and are as
+    /// they were. `None` (the default) sets no limit. Which holes are finished in time depends on the
+    /// machine; a patch that is finished is the same as without a limit.
+    pub time_budget: Option<f64>,
+    /// How the attributes of new vertices are made.
+    pub attributes: AttributeOptions,
+    /// How [`Method::UnfoldArea`] and [`Method::UnfoldFairing`] unfold the rim.
+    pub unfold: UnfoldOptions,
 }
 
 impl Default for FillOptions {
@@ -53,12 +65,20 @@ impl Default for FillOptions {
             density: 1.0,
             grading: None,
             max_new_vertices: 10_000_000,
+            time_budget: None,
+            attributes: AttributeOptions::default(),
+            unfold: UnfoldOptions::default(),
         }
     }
 }
 
 /// The parameters, by the method or stage that they belong to.
-const GROUPS: &[&[Parameter]] = &[FILL, staircase::PARAMETERS];
+const GROUPS: &[&[Parameter]] = &[
+    FILL,
+    staircase::PARAMETERS,
+    unfold::PARAMETERS,
+    attributes::PARAMETERS,
+];
 
 const FILL: &[Parameter] = &[
     Parameter {
@@ -74,6 +94,23 @@ const FILL: &[Parameter] = &[
         allowed: "on or off",
         get: |o| switch_name(o.join_islands),
         set: |o, v| switch(v).map(|v| o.join_islands = v),
+    },
+    Parameter {
+        name: "fill.time-budget",
+        help: "seconds after which holes that are not finished are given up",
+        allowed: "none, or a number of seconds from 0 to 1000000000",
+        get: |o| {
+            o.time_budget
+                .map_or_else(|| "none".to_owned(), |t| t.to_string())
+        },
+        set: |o, v| {
+            o.time_budget = if v == "none" {
+                None
+            } else {
+                Some(number(v, 0.0, 1e9)?)
+            };
+            Some(())
+        },
     },
 ];
 

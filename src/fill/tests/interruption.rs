@@ -2,11 +2,10 @@
 
 use super::{mesh_of, with_method};
 use crate::boundary::loops::BoundaryLoops;
+use crate::fill::index::MeshIndex;
 use crate::fill::method::Method;
 use crate::fill::plan::{Planner, chain};
 use crate::fixtures::{self, Arrays};
-use crate::quality::Surface;
-use crate::quality::spatial::FaceIndex;
 use std::sync::Mutex;
 
 /// Seconds of processor time that may pass between two questions.
@@ -38,10 +37,7 @@ fn processor_seconds() -> Option<f64> {
 fn longest_gap(edges: usize, method: Method) -> f64 {
     let mesh = mesh_of(&wide_rim(edges));
     let boundary = BoundaryLoops::find(&mesh);
-    let faces = FaceIndex::build(Surface {
-        points: mesh.points(),
-        triangles: mesh.triangles(),
-    });
+    let index = MeshIndex::build(&mesh);
     let options = with_method(method);
     let gaps = Mutex::new((None, 0.0_f64));
     let ask = || {
@@ -55,7 +51,7 @@ fn longest_gap(edges: usize, method: Method) -> f64 {
     };
     let planner = Planner {
         mesh: &mesh,
-        faces: &faces,
+        index: &index,
         options: &options,
         interrupted: &ask,
     };

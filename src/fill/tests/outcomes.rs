@@ -4,6 +4,7 @@ use super::{Filled, METHODS, all_but_the_largest, bits, fill, mesh_of, with_meth
 use crate::boundary::loops::BoundaryLoops;
 use crate::boundary::select::Selection;
 use crate::error::ErrorKind;
+use crate::fill::index::MeshIndex;
 use crate::fill::method::Method;
 use crate::fill::options::FillOptions;
 use crate::fill::pipeline::fill_holes;
@@ -12,8 +13,6 @@ use crate::fill::progress::Progress;
 use crate::fill::report::HoleStatus;
 use crate::fixtures::{self, Arrays};
 use crate::mesh::trimesh::TriMesh;
-use crate::quality::Surface;
-use crate::quality::spatial::FaceIndex;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -53,7 +52,11 @@ fn progress_is_told_once_a_hole_and_grows() {
     for threads in [1, 2, 4] {
         let told = Mutex::new(Vec::new());
         let callback = |p: Progress| {
-            told.lock().unwrap().push((p.holes_done, p.holes_total));
+            let mut told = told.lock().unwrap();
+            // Within a hole, the same again.
+            if told.last() != Some(&(p.holes_done, p.holes_total)) && p.holes_done > 0 {
+                told.push((p.holes_done, p.holes_total));
+            }
             ControlFlow::Continue(())
         };
         let mut mesh = mesh_of(&nine_holes());
@@ -107,17 +110,14 @@ fn holes_that_are_cancelled_are_as_they_were_wherever_the_caller_stops() {
 fn planning_stops_wherever_it_is_interrupted() {
     let mesh = mesh_of(&fixtures::sphere(14).cut(|c| c[2] > 0.5));
     let boundary = BoundaryLoops::find(&mesh);
-    let faces = FaceIndex::build(Surface {
-        points: mesh.points(),
-        triangles: mesh.triangles(),
-    });
+    let index = MeshIndex::build(&mesh);
     let options = with_method(Method::FairC2);
     let plan_for = |questions: usize| {
         let asked = AtomicUsize::new(0);
         let interrupted = || asked.fetch_add(1, Ordering::Relaxed) >= questions;
         let planner = Planner {
             mesh: &mesh,
-            faces: &faces,
+            index: &index,
             options: &options,
             interrupted: &interrupted,
         };

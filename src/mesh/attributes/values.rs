@@ -166,6 +166,11 @@ impl ScalarValues {
         with_scalars!(self, v => v.extend_from_within(range));
     }
 
+    /// Keeps the first `count` numbers.
+    pub(super) fn truncate(&mut self, count: usize) {
+        with_scalars!(self, v => v.truncate(count));
+    }
+
     /// Removes the first `count` numbers, which must exist.
     pub(super) fn drop_front(&mut self, count: usize) {
         with_scalars!(self, v => drop(v.drain(..count)));
@@ -259,6 +264,12 @@ impl ListValues {
             self.items.push_copies_of(range);
             self.close_list();
         }
+    }
+
+    /// Keeps the first `count` lists.
+    pub(super) fn truncate(&mut self, count: usize) {
+        self.ends.truncate(count);
+        self.items.truncate(self.ends.last().copied().unwrap_or(0));
     }
 
     /// Removes the first `count` lists, which must exist.

@@ -1,0 +1,296 @@
+//! Attributes of vertices and triangles, in and out.
+//!
+//! A mesh has columns of single numbers. An attribute of several components is several columns, named so that the
+//! pipeline knows colours and normals when it sees them.
+
+use super::guard::{Failure, guard};
+use super::memory::{
+    ATTRIBUTE_TYPES, Columns, Sink, Wanted, blank, invalid, null, read_text, write, write_struct,
+    write_text,
+};
+use super::mesh::MeshObject;
+use super::objects::{with_mesh, with_mesh_mut};
+use super::status::{HOLEFILL_STATUS_NOT_FOUND, HOLEFILL_STATUS_OK, HolefillStatus};
+use super::types::{
+    HOLEFILL_ELEMENT_TRIANGLE, HOLEFILL_ELEMENT_VERTEX, HOLEFILL_TYPE_F32, HOLEFILL_TYPE_F64,
+    HOLEFILL_TYPE_I8, HOLEFILL_TYPE_I16, HOLEFILL_TYPE_I32, HOLEFILL_TYPE_U8, HOLEFILL_TYPE_U16,
+    HOLEFILL_TYPE_U32, HolefillAttributeInfo, HolefillElement, HolefillError, HolefillInput,
+    HolefillMesh, HolefillOutput, HolefillType,
+};
+use crate::mesh::attributes::{
+    AttributeValues, Attributes, ScalarType, ScalarValues, with_scalars,
+};
+use std::ffi::c_char;
+
+/// Most components of an attribute.
+const MOST_COMPONENTS: u32 = 1024;
+
+/// An attribute as C knows it.
+pub(super) struct NamedColumns {
+    name: String,
+    scalar_type: HolefillType,
+    /// The names of its columns, one for each component.
+    columns: Vec<String>,
+}
+
+/// The names of the columns of an attribute.
+fn column_names(name: &str, components: u32) -> Vec<String> {
+    let known: &[&str] = match (name, components) {
+        ("normal", 3) => &["nx", "ny", "nz"],
+        ("color", 3) => &["red", "green", "blue"],
+        ("color", 4) => &["red", "green", "blue", "alpha"],
+        (_, 1) => &[name],
+        _ => &[],
+    };
+    if known.is_empty() {
+        return (0..components).map(|k| format!("{name}[{k}]")).collect();
+    }
+    known.iter().map(|&n| n.to_owned()).collect()
+}
+
+fn place(element: HolefillElement) -> Result<usize, Failure> {
+    match element {
+        HOLEFILL_ELEMENT_VERTEX => Ok(0),
+        HOLEFILL_ELEMENT_TRIANGLE => Ok(1),
+        _ => Err(invalid(format!("there is no element {element}"))),
+    }
+}
+
+fn find(
+    object: &MeshObject,
+    element: HolefillElement,
+    index: u64,
+) -> Result<(&NamedColumns, &Attributes), Failure> {
+    let place = place(element)?;
+    let list = &object.attributes[place];
+    let named = usize::try_from(index).ok().and_then(|i| list.get(i));
+    let named = named.ok_or_else(|| {
+        let message = format!("there is no attribute {index} among {}", list.len());
+        Failure::new(HOLEFILL_STATUS_NOT_FOUND, message)
+    })?;
+    let mesh = object.session.mesh();
+    let attributes = [mesh.vertex_attributes(), mesh.face_attributes()][place];
+    Ok((named, attributes))
+}
+
+fn column(columns: &Columns, scalar_type: HolefillType, k: usize) -> Result<ScalarValues, Failure> {
+    let what = "values";
+    Ok(match scalar_type {
+        HOLEFILL_TYPE_I8 => ScalarValues::I8(columns.column(k, what)?),
+        HOLEFILL_TYPE_U8 => ScalarValues::U8(columns.column(k, what)?),
+        HOLEFILL_TYPE_I16 => ScalarValues::I16(columns.column(k, what)?),
+        HOLEFILL_TYPE_U16 => ScalarValues::U16(columns.column(k, what)?),
+        HOLEFILL_TYPE_I32 => ScalarValues::I32(columns.column(k, what)?),
+        HOLEFILL_TYPE_U32 => ScalarValues::U32(columns.column(k, what)?),
+        HOLEFILL_TYPE_F32 => ScalarValues::F32(columns.column(k, what)?),
+        _ => ScalarValues::F64(columns.column(k, what)?),
+    })
+}
+
+fn type_number(scalar_type: ScalarType) -> HolefillType {
+    match scalar_type {
+        ScalarType::I8 => HOLEFILL_TYPE_I8,
+        ScalarType::U8 => HOLEFILL_TYPE_U8,
+        ScalarType::I16 => HOLEFILL_TYPE_I16,
+        ScalarType::U16 => HOLEFILL_TYPE_U16,
+        ScalarType::I32 => HOLEFILL_TYPE_I32,
+        ScalarType::U32 => HOLEFILL_TYPE_U32,
+        ScalarType::F32 => HOLEFILL_TYPE_F32,
+        ScalarType::F64 => HOLEFILL_TYPE_F64,
+    }
+}
+
+/// Adds an attribute to the vertices or the triangles of a mesh, and copies its values.
+///
+/// `name` is UTF-8 and unique among those of the element. `values` has a row of `components` numbers for each vertex or
+/// triangle, those of patches included, of any type but `uint64_t`.
+///
+/// A fill gives values to new vertices and triangles: floating-point numbers, and whatever is called `color`, are
+/// extended smoothly from the rim; three floating-point numbers called `normal` become the normals of the patch; all
+/// else is copied from the nearest vertex of the rim, or triangle beside it. Plans that were made before cannot be
+/// applied any more.
+///
+/// Statuses: `INVALID_ARGUMENT` for an unknown element, a name that exists or is empty, no component or more than 1024, or
+/// another number of rows; `BUSY`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn holefill_mesh_add_attribute(
+    mesh: HolefillMesh,
+    element: HolefillElement,
+    name: *const c_char,
+    components: u32,
+    values: *const HolefillInput,
+    error: *mut HolefillError,
+) -> HolefillStatus {
+    guard(error, || {
+        let place = place(element)?;
+        // SAFETY: the caller's promise.
+        let name = unsafe { read_text(name, "name")? }.ok_or_else(|| null("name"))?;
+        if name.is_empty() || components == 0 || components > MOST_COMPONENTS {
+            return Err(invalid(format!(
+                "an attribute needs a name and 1 to {MOST_COMPONENTS} components"
+            )));
+        }
+        // SAFETY: the caller's promise.
+        let (columns, scalar_type) =
+            unsafe { Columns::check(values, components as usize, "values")? };
+        with_mesh_mut(mesh.id, |object| {
+            let names = column_names(name, components);
+            let counts = {
+                let mesh = object.session.mesh();
+                let attributes = [mesh.vertex_attributes(), mesh.face_attributes()][place];
+                if names.iter().any(|n| attributes.get(n).is_some()) {
+                    return Err(invalid(format!("there is an attribute {name} already")));
+                }
+                attributes.len()
+            };
+            if columns.count() != counts {
+                return Err(invalid(format!(
+                    "attribute {name} has {} rows for {counts} elements",
+                    columns.count()
+                )));
+            }
+            // All is copied before anything is added: then nothing can fail.
+            let copied: Result<Vec<ScalarValues>, Failure> = (0..names.len())
+                .map(|k| column(&columns, scalar_type, k))
+                .collect();
+            for (name, values) in names.iter().zip(copied?) {
+                let values = AttributeValues::Scalars(values);
+                match place {
+                    0 => object.session.add_vertex_attribute(name, values)?,
+                    _ => object.session.add_face_attribute(name, values)?,
+                }
+            }
+            object.attributes[place].push(NamedColumns {
+                name: name.to_owned(),
+                scalar_type,
+                columns: names,
+            });
+            Ok(HOLEFILL_STATUS_OK)
+        })
+    })
+}
+
+/// Number of attributes of the vertices or the triangles.
+///
+/// Statuses: `INVALID_ARGUMENT` for an unknown element.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn holefill_mesh_attribute_count(
+    mesh: HolefillMesh,
+    element: HolefillElement,
+    count: *mut u64,
+    error: *mut HolefillError,
+) -> HolefillStatus {
+    guard(error, || {
+        with_mesh(mesh.id, |object| {
+            let found = object.attributes[place(element)?].len();
+            // SAFETY: the caller's promise.
+            unsafe { write(count, found as u64, "count")? };
+            Ok(HOLEFILL_STATUS_OK)
+        })
+    })
+}
+
+/// Type and size of attribute `index`, in the order in which they were added.
+///
+/// Statuses: `NOT_FOUND`; `INVALID_ARGUMENT` for an unknown element.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn holefill_mesh_attribute_info(
+    mesh: HolefillMesh,
+    element: HolefillElement,
+    index: u64,
+    info: *mut HolefillAttributeInfo,
+    error: *mut HolefillError,
+) -> HolefillStatus {
+    guard(error, || {
+        with_mesh(mesh.id, |object| {
+            let (named, attributes) = find(object, element, index)?;
+            let value = HolefillAttributeInfo {
+                scalar_type: named.scalar_type,
+                components: named.columns.len() as u32,
+                count: attributes.len() as u64,
+                ..blank()
+            };
+            // SAFETY: the caller's promise.
+            unsafe { write_struct(info, &value, "info")? };
+            Ok(HOLEFILL_STATUS_OK)
+        })
+    })
+}
+
+/// The name of attribute `index`; `buffer`, `capacity` and `length` as in `holefill_error_message`.
+///
+/// Statuses: `NOT_FOUND`; `INVALID_ARGUMENT` for an unknown element.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn holefill_mesh_attribute_name(
+    mesh: HolefillMesh,
+    element: HolefillElement,
+    index: u64,
+    buffer: *mut c_char,
+    capacity: u64,
+    length: *mut u64,
+    error: *mut HolefillError,
+) -> HolefillStatus {
+    guard(error, || {
+        with_mesh(mesh.id, |object| {
+            let (named, _) = find(object, element, index)?;
+            // SAFETY: the caller's promise.
+            unsafe { write_text(&named.name, buffer, capacity, length)? };
+            Ok(HOLEFILL_STATUS_OK)
+        })
+    })
+}
+
+/// Copies values of attribute `index` from row `first` on: `output` has rows of as many numbers as the attribute has
+/// components, of its type or `double`, as many as are wanted.
+///
+/// Statuses: `NOT_FOUND`; `INVALID_ARGUMENT` for an unknown element or another type.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn holefill_mesh_read_attribute(
+    mesh: HolefillMesh,
+    element: HolefillElement,
+    index: u64,
+    first: u64,
+    output: *const HolefillOutput,
+    error: *mut HolefillError,
+) -> HolefillStatus {
+    guard(error, || {
+        with_mesh(mesh.id, |object| {
+            let (named, attributes) = find(object, element, index)?;
+            let wanted = Wanted {
+                first,
+                total: attributes.len(),
+                width: named.columns.len(),
+                allowed: &ATTRIBUTE_TYPES,
+            };
+            // SAFETY: the caller's promise.
+            let sink = unsafe { Sink::check(output, &wanted)? };
+            if !sink.is_of(named.scalar_type) && !sink.is_of(HOLEFILL_TYPE_F64) {
+                return Err(invalid(format!(
+                    "the attribute can be read as type {} or {HOLEFILL_TYPE_F64}",
+                    named.scalar_type
+                )));
+            }
+            for (k, name) in named.columns.iter().enumerate() {
+                let Some(AttributeValues::Scalars(values)) = attributes.get(name) else {
+                    continue;
+                };
+                write_column(&sink, k, values);
+            }
+            Ok(HOLEFILL_STATUS_OK)
+        })
+    })
+}
+
+fn write_column(sink: &Sink, k: usize, values: &ScalarValues) {
+    if sink.is_of(type_number(values.scalar_type())) {
+        with_scalars!(values, v => {
+            for (i, &value) in v[sink.range.clone()].iter().enumerate() {
+                sink.put(i, k, value);
+            }
+        });
+        return;
+    }
+    for (i, row) in sink.range.clone().enumerate() {
+        sink.put(i, k, values.get(row).unwrap_or(0.0));
+    }
+}

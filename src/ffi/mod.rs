@@ -1,0 +1,52 @@
+//! The C interface: what `include/holefill.h` declares.
+//!
+//! The header is generated from the files here, and its comments are theirs. This is the only module with
+//! `unsafe`. What C hands over is checked before it is used: handles are looked up in a table, so that no order of
+//! calls reaches freed memory; pointers may be null or unaligned; counts and strides may be anything. What
+//! cannot be checked, and is the caller's promise for every function, is that a pointer that is not null points to as
+//! much memory as the other arguments say, and that nobody else writes to it during the call.
+//!
+//! Every function runs in a guard that turns panics into a status and failures into error objects.
+#![allow(unsafe_code)]
+// The promise is the same for all functions and stands above and at the head of the header.
+#![allow(clippy::missing_safety_doc)]
+
+mod attributes;
+mod callbacks;
+mod error;
+mod fill;
+mod guard;
+mod handles;
+mod loops;
+mod memory;
+mod mesh;
+mod objects;
+mod options;
+mod plan;
+mod report;
+mod shared;
+mod status;
+#[cfg(test)]
+mod tests;
+mod types;
+mod version;
+
+/// The primitives that `handles` and `shared` are built on; the model checker has its own.
+mod sync {
+    pub(super) use std::sync::atomic::{AtomicBool, Ordering};
+    pub(super) use std::sync::{
+        Arc, Mutex, MutexGuard, RwLock, RwLockReadGuard, RwLockWriteGuard, TryLockError,
+    };
+}
+
+pub use attributes::*;
+pub use error::*;
+pub use fill::*;
+pub use loops::*;
+pub use mesh::*;
+pub use options::*;
+pub use plan::*;
+pub use report::*;
+pub use status::*;
+pub use types::*;
+pub use version::*;

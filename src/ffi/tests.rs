@@ -1,0 +1,1 @@
+//! What C callers can do wrong, and what they get.

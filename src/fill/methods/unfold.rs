@@ -1,0 +1,172 @@
+//! Fills a hole by unfolding its rim: triangulated in the plane, embedded, refined, and shaped by an energy.
+//!
+//! Based on: A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular meshes by
+//! curve unfolding", SMI 2009, sections 3.2 and 3.3. Unlike there, refinement works on the embedded patch and
+//! again on its final shape, and both energies are minimised exactly, by one sparse system each.
+
+use crate::error::{Error, ErrorKind, Result};
+use crate::fair::kharmonic::{Order, fair};
+use crate::fair::laplacian::Weights;
+use crate::fill::method::Method;
+use crate::fill::options::FillOptions;
+use crate::math::Vec3;
+use crate::math::sparse::SpdSolver;
+use crate::patch::{HoleShape, PatchSurface};
+use crate::refine::{RefineOptions, grading, refine, rim_sizes};
+use crate::triangulate::planar::triangulate_planar;
+use crate::triangulate::unfold::unfold;
+
+/// Times that a patch is refined and shaped again because its shape made edges too long. Each time fewer are;
+/// what is left after the last is not far over the length at which edges are split.
+const ROUNDS: usize = 4;
+
+/// Relaxations of the patch before it gets its shape.
+const RELAXATIONS: usize = 2;
+
+/// Builds patches for one hole; the unfolding is done once.
+pub(crate) struct Unfold<'a> {
+    hole: &'a HoleShape,
+    options: &'a FillOptions,
+    interrupted: &'a dyn Fn() -> bool,
+    embedded: Option<Result<PatchSurface>>,
+}
+
+impl<'a> Unfold<'a> {
+    /// Nothing is computed yet. `interrupted` is asked from time to time; true stops the work.
+    pub(crate) fn new(
+        hole: &'a HoleShape,
+        options: &'a FillOptions,
+        interrupted: &'a dyn Fn() -> bool,
+    ) -> Self {
+        Self {
+            hole,
+            options,
+            interrupted,
+            embedded: None,
+        }
+    }
+
+    /// The patch of `method` in the hole's coordinates.
+    ///
+    /// # Errors
+    /// [`ErrorKind::InvalidInput`] for a rim with islands, [`ErrorKind::Knotted`] for one that was not unfolded;
+    /// those of triangulation, refinement and fairing; [`ErrorKind::Cancelled`].
+    pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
+        let mut surface = self.embedded()?;
+        let mut sizes = rim_sizes(&surface, &self.hole.edge_lengths)?;
+        for size in &mut sizes {
+            *size *= self.options.density;
+        }
+        for _ in 0..ROUNDS {
+            let is_refined = self.refine(&mut surface, &mut sizes)?;
+            let mut solver = SpdSolver::default();
+            let around = &self.hole.surroundings;
+            // E_AREA is least where every umbrella vector is zero, E_DF where every second-order one is.
+            let (order, weights) = if method == Method::UnfoldFairing {
+                (Order::Two, Weights::Umbrella)
+            } else {
+                (Order::One, Weights::Uniform)
+            };
+            fair(&mut surface, around, order, weights, &mut solver)?;
+            if !is_refined {
+                break;
+            }
+        }
+        Ok(surface)
+    }
+
+    /// The rim with the triangles that its unfolding has in the plane, and their chords that the mesh has as edges
+    /// split in the middle.
+    fn embedded(&mut self) -> Result<PatchSurface> {
+        if self.embedded.is_none() {
+            self.embedded = Some(self.embed());
+        }
+        match &self.embedded {
+            Some(embedded) => embedded.clone(),
+            None => Err(Error::cancelled()),
+        }
+    }
+
+    fn embed(&self) -> Result<PatchSurface> {
+        let hole = self.hole;
+        if hole.polygon.len() != hole.points.len() {
+            return Err(Error::new(
+                ErrorKind::InvalidInput,
+                "a rim with islands is not one curve that could be unfolded",
+            ));
+        }
+        let curve: Vec<Vec3> = hole
+            .polygon
+            .iter()
+            .map(|&v| hole.points[v as usize])
+            .collect();
+        let options = self.options;
+        let unfolding = unfold(&curve, &options.unfold, options.seed, self.interrupted)?;
+        let triangles = triangulate_planar(&unfolding.polygon, &[])?;
+        let mut surface = PatchSurface {
+            rim_count: hole.points.len(),
+            points: hole.points.clone(),
+            triangles: triangles
+                .iter()
+                .map(|t| t.map(|position| hole.polygon[position as usize]))
+                .collect(),
+        };
+        self.split_joined_chords(&mut surface);
+        Ok(surface)
+    }
+
+    /// Splits the edges between two rim vertices that the mesh joins already, other than those of the rim.
+    fn split_joined_chords(&self, surface: &mut PatchSurface) {
+        let mut t = 0;
+        while t < surface.triangles.len() {
+            for k in 0..3 {
+                let [a, b, c] = rotated(surface.triangles[t], k);
+                if (a.max(b) as usize) >= surface.rim_count || !self.hole.is_joined(a, b) {
+                    continue;
+                }
+                let opposite = (t + 1..surface.triangles.len()).find_map(|u| {
+                    let other = surface.triangles[u];
+                    (0..3)
+                        .map(|l| rotated(other, l))
+                        .find(|o| o[0] == b && o[1] == a)
+                        .map(|o| (u, o[2]))
+                });
+                // Without a triangle on the other side it is an edge of the rim, or was split from there.
+                let Some((u, d)) = opposite else { continue };
+                let middle = surface.points.len() as u32;
+                let point = (surface.points[a as usize] + surface.points[b as usize]) / 2.0;
+                surface.points.push(point);
+                surface.triangles[t] = [a, middle, c];
+                surface.triangles[u] = [b, middle, d];
+                surface.triangles.push([middle, b, c]);
+                surface.triangles.push([middle, a, d]);
+                break;
+            }
+            t += 1;
+        }
+    }
+
+    /// Refines the patch, and returns whether that added vertices.
+    fn refine(&self, surface: &mut PatchSurface, sizes: &mut Vec<f64>) -> Result<bool> {
+        let rim_count = surface.rim_count;
+        let options = RefineOptions {
+            grading: self.options.grading.unwrap_or_else(|| grading(rim_count)),
+            pass_relaxations: 1,
+            final_relaxations: RELAXATIONS,
+            max_vertices: rim_count.saturating_add(self.options.max_new_vertices),
+            ..RefineOptions::default()
+        };
+        if (self.interrupted)() {
+            return Err(Error::cancelled());
+        }
+        let report = refine(surface, sizes, &options, &|a, b| self.hole.is_joined(a, b))?;
+        if (self.interrupted)() {
+            return Err(Error::cancelled());
+        }
+        Ok(report.splits > 0)
+    }
+}
+
+fn rotated(t: [u32; 3], k: usize) -> [u32; 3] {
+    [t[k], t[(k + 1) % 3], t[(k + 2) % 3]]
+}

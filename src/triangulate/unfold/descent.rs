@@ -1,0 +1,304 @@
+//! Unfolds a closed polygon by making its vertices repel each other, its edges keeping their lengths.
+//!
+//! Based on: J. H. Cantarella, E. D. Demaine, H. N. Iben, J. F. O'Brien, "An energy-driven approach to linkage
+//! unfolding", Symposium on Computational Geometry, 2004 (a repulsive energy opens a chain of fixed edge
+//! lengths), with the bound on the steps of A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes
+//! in triangular meshes by curve unfolding", SMI 2009, section 3.1, taken vertex by vertex.
+//!
+//! Each step goes down the gradient of the sum of the inverse distances of all vertices, smoothed along the
+//! polygon so that its long parts turn as a whole, and pulls the edges back to their lengths. Then each vertex
+//! goes at most just under half of the distance of its two segments to the other ones: no two points of two
+//! segments can go as far together as they are apart, so the polygon never crosses itself.
+//!
+//! O(m^1.5) a step for the forces: vertices far away act together, in runs of √m. Not guaranteed: that the energy
+//! falls in each step, that the lengths are kept where the bound is tight, that an unknot gets unfolded.
+
+use super::distance::SegmentDistances;
+use crate::math::Vec3;
+use rand::RngExt;
+use rand_pcg::Pcg64;
+
+/// Longest way of a vertex in one step before the edges are pulled back, in mean edge lengths: longer steps turn
+/// edges so far that their lengths are lost, shorter ones only need more steps.
+const STEP: f64 = 0.5;
+
+/// The forces are smoothed over this part of the polygon: enough for the arms of a folded rim to swing as a
+/// whole.
+const SMOOTHING_SHARE: f64 = 0.1;
+
+/// Times that all edges are pulled to their length after a step; the rest is left to the next steps.
+const LENGTH_SWEEPS: usize = 5;
+
+/// Part of half the distance to other segments that a vertex may go; the rest is for rounding.
+const CLEARANCE_SHARE: f64 = 0.98;
+
+/// A run of vertices acts as one when it is further away than this many times its radius; the error of the force
+/// is then below a tenth.
+const FAR: f64 = 3.0;
+
+/// Forces of a random direction are added to the first steps of all runs but the first, of this strength
+/// relative to the mean force.
+const KICK: f64 = 1.0;
+const KICKED_STEPS: usize = 100;
+
+/// A run has stalled when the energy fell by less than this part in so many steps.
+const STALL_SHARE: f64 = 1e-3;
+const STALL_STEPS: usize = 200;
+
+/// One run of the descent.
+pub(super) struct Descent {
+    points: Vec<Vec3>,
+    lengths: Vec<f64>,
+    epsilon: f64,
+    kicks: Option<Pcg64>,
+    steps: usize,
+    /// Energy at the last comparison.
+    energy: f64,
+    forces: Vec<Vec3>,
+    targets: Vec<Vec3>,
+    clearances: Vec<f64>,
+    distances: SegmentDistances,
+}
+
+impl Descent {
+    /// Starts at `points`, whose mean edge length is 1, and keeps non-neighbouring segments more than `epsilon`
+    /// apart, as they must be at the start. With a generator the first steps are disturbed by it.
+    pub(super) fn new(points: &[Vec3], epsilon: f64, kicks: Option<Pcg64>) -> Self {
+        let m = points.len();
+        Self {
+            points: points.to_vec(),
+            lengths: (0..m)
+                .map(|i| (points[(i + 1) % m] - points[i]).norm())
+                .collect(),
+            epsilon,
+            kicks,
+            steps: 0,
+            energy: f64::INFINITY,
+            forces: vec![Vec3::zeros(); m],
+            targets: points.to_vec(),
+            clearances: Vec::new(),
+            distances: SegmentDistances::default(),
+        }
+    }
+
+    /// The polygon as it is now.
+    pub(super) fn points(&self) -> &[Vec3] {
+        &self.points
+    }
+
+    /// Moves the polygon once. False when the run has stalled: further steps would change little.
+    pub(super) fn step(&mut self) -> bool {
+        let energy = self.repel();
+        if self.steps.is_multiple_of(STALL_STEPS) {
+            if energy > (1.0 - STALL_SHARE) * self.energy {
+                return false;
+            }
+            self.energy = energy;
+        }
+        self.kick();
+        self.steps += 1;
+        let m = self.points.len();
+        smooth(&mut self.forces, (SMOOTHING_SHARE * m as f64).powi(2));
+        let largest = self.forces.iter().map(|f| f.norm()).fold(0.0, f64::max);
+        if largest <= f64::MIN_POSITIVE {
+            return false;
+        }
+        for ((target, point), force) in self.targets.iter_mut().zip(&self.points).zip(&self.forces)
+        {
+            *target = point + force * (STEP / largest);
+        }
+        self.keep_lengths();
+        self.go();
+        true
+    }
+
+    /// Computes the forces and returns the energy.
+    fn repel(&mut self) -> f64 {
+        let points = &self.points;
+        let m = points.len();
+        let run = (m as f64).sqrt().ceil() as usize;
+        let runs: Vec<Run> = points.chunks(run).map(Run::of).collect();
+        let mut energy = 0.0;
+        for (i, (p, force)) in points.iter().zip(&mut self.forces).enumerate() {
+            *force = Vec3::zeros();
+            let mut add = |d: Vec3, count: f64| {
+                let inverse = d.norm_squared().sqrt().recip();
+                energy += count * inverse;
+                *force += d * (count * inverse * inverse * inverse);
+            };
+            for (k, members) in runs.iter().enumerate() {
+                let d = p - members.centre;
+                if d.norm_squared() > members.far_sq {
+                    add(d, members.count);
+                    continue;
+                }
+                let first = k * run;
+                for (j, q) in points.iter().enumerate().skip(first).take(run) {
+                    let apart = i.abs_diff(j);
+                    if apart > 1 && apart < m - 1 {
+                        add(p - q, 1.0);
+                    }
+                }
+            }
+        }
+        energy
+    }
+
+    /// Disturbs the forces.
+    fn kick(&mut self) {
+        let Some(generator) = self.kicks.as_mut().filter(|_| self.steps < KICKED_STEPS) else {
+            return;
+        };
+        let total: f64 = self.forces.iter().map(|f| f.norm()).sum();
+        let strength = KICK * total / self.forces.len() as f64;
+        for force in &mut self.forces {
+            *force += Vec3::from_fn(|_, _| generator.random_range(-strength..=strength));
+        }
+    }
+
+    /// Pulls the ends of each edge of the targets towards its length, forwards and backwards in turn.
+    fn keep_lengths(&mut self) {
+        let m = self.targets.len();
+        for sweep in 0..LENGTH_SWEEPS {
+            for k in 0..m {
+                let i = if sweep % 2 == 0 { k } else { m - 1 - k };
+                let j = (i + 1) % m;
+                let edge = self.targets[j] - self.targets[i];
+                let length = edge.norm();
+                if length > f64::MIN_POSITIVE {
+                    let way = edge * (0.5 * (1.0 - self.lengths[i] / length));
+                    self.targets[i] += way;
+                    self.targets[j] -= way;
+                }
+            }
+        }
+    }
+
+    /// Goes to the targets, or as far towards them as the clearances allow.
+    fn go(&mut self) {
+        let reach = 4.0 * STEP;
+        self.distances
+            .at_vertices(&self.points, reach, &mut self.clearances);
+        for ((point, target), clearance) in self
+            .points
+            .iter_mut()
+            .zip(&self.targets)
+            .zip(&self.clearances)
+        {
+            let limit = 0.5 * CLEARANCE_SHARE * (clearance - self.epsilon);
+            let way = target - *point;
+            let length = way.norm();
+            if length <= limit {
+                *point = *target;
+            } else if limit > 0.0 {
+                *point += way * (limit / length);
+            }
+        }
+    }
+}
+
+/// Successive vertices that act as one from far away.
+struct Run {
+    centre: Vec3,
+    count: f64,
+    /// Squared distance from which they do.
+    far_sq: f64,
+}
+
+impl Run {
+    fn of(points: &[Vec3]) -> Self {
+        let count = points.len() as f64;
+        let centre = points.iter().sum::<Vec3>() / count;
+        let radius_sq = points
+            .iter()
+            .map(|p| (p - centre).norm_squared())
+            .fold(0.0, f64::max);
+        Self {
+            centre,
+            count,
+            // A run is at least as large as an edge: neighbours, which do not repel each other, are near.
+            far_sq: FAR * FAR * radius_sq.max(1.0),
+        }
+    }
+}
+
+/// Replaces the vectors `f` on the vertices of a cycle by the solution of `(1 + strength L) x = f`, with `L` the
+/// second differences along the cycle. O(m).
+fn smooth(f: &mut [Vec3], strength: f64) {
+    // The cycle is cut open: the matrix is tridiagonal plus a product of two vectors that are zero but at the
+    // ends (Sherman and Morrison).
+    let m = f.len();
+    let (side, middle) = (-strength, 1.0 + 2.0 * strength);
+    let corner = -middle;
+    let mut cut = vec![0.0; m];
+    (cut[0], cut[m - 1]) = (corner, side);
+    let diagonal = |i: usize| match i {
+        0 => middle - corner,
+        _ if i == m - 1 => middle - side * side / corner,
+        _ => middle,
+    };
+    let mut upper = vec![0.0; m];
+    let mut pivot = diagonal(0);
+    f[0] /= pivot;
+    cut[0] /= pivot;
+    for i in 1..m {
+        upper[i - 1] = side / pivot;
+        pivot = diagonal(i) - side * upper[i - 1];
+        f[i] = (f[i] - f[i - 1] * side) / pivot;
+        cut[i] = (cut[i] - cut[i - 1] * side) / pivot;
+    }
+    for i in (0..m - 1).rev() {
+        let next = f[i + 1];
+        f[i] -= next * upper[i];
+        cut[i] -= cut[i + 1] * upper[i];
+    }
+    let ratio = side / corner;
+    let part = (f[0] + f[m - 1] * ratio) / (1.0 + cut[0] + cut[m - 1] * ratio);
+    for (x, c) in f.iter_mut().zip(&cut) {
+        *x -= part * *c;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn smoothing_solves_its_equations() {
+        for (m, strength) in [(3, 0.5), (4, 100.0), (51, 3.0), (200, 400.0)] {
+            let given: Vec<Vec3> = (0..m)
+                .map(|i| Vec3::new((i * i % 7) as f64, f64::from(i == 0), -1.0))
+                .collect();
+            let mut x = given.clone();
+            smooth(&mut x, strength);
+            for i in 0..m {
+                let neighbours = x[(i + 1) % m] + x[(i + m - 1) % m];
+                let image = x[i] + (x[i] * 2.0 - neighbours) * strength;
+                assert!(
+                    (image - given[i]).norm() < 1e-9 * strength.max(1.0),
+                    "{m} {i}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn runs_far_away_act_almost_as_their_vertices() {
+        let points: Vec<Vec3> = (0..400)
+            .map(|i| {
+                let t = 0.05 * i as f64;
+                Vec3::new(20.0 * t.cos(), 20.0 * t.sin(), 8.0 * (0.7 * t).sin())
+            })
+            .collect();
+        let m = points.len();
+        let mut descent = Descent::new(&points, 1e-5, None);
+        descent.repel();
+        for i in (0..m).step_by(17) {
+            let exact: Vec3 = (0..m)
+                .filter(|&j| i.abs_diff(j) > 1 && i.abs_diff(j) < m - 1)
+                .map(|j| (points[i] - points[j]) / (points[i] - points[j]).norm().powi(3))
+                .sum();
+            assert!((descent.forces[i] - exact).norm() < 0.1 * exact.norm());
+        }
+    }
+}

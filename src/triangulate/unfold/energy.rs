@@ -1,0 +1,27 @@
+//! How far a closed polygon is from lying in a plane: the energy that the annealing of the paper minimises.
+//!
+//! Based on: A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular meshes by
+//! curve unfolding", SMI 2009, section 3.1 (E_PE, d_PE, n_i).
+
+use crate::math::Vec3;
+
+/// `E_PE`: the sum, over all vertices, of the angle in radians between the normals of the corners there and at
+/// the next vertex, from 0 to π each. O(m).
+///
+/// A planar convex polygon has none; each change between a convex and a concave corner of a planar polygon
+/// counts π, each corner that is straight counts as if its normal were right.
+pub(super) fn planarity(points: &[Vec3]) -> f64 {
+    let m = points.len();
+    let normal = |i: usize| {
+        let middle = points[(i + 1) % m];
+        (points[i % m] - middle).cross(&(points[(i + 2) % m] - middle))
+    };
+    let mut sum = 0.0;
+    let mut here = normal(0);
+    for i in 0..m {
+        let next = normal(i + 1);
+        sum += here.cross(&next).norm().atan2(here.dot(&next));
+        here = next;
+    }
+    sum
+}

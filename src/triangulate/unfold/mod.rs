@@ -1,0 +1,248 @@
+//! Curve unfolding: deforms a closed polygon in space to a simple polygon in the plane, without ever letting it
+//! cross itself.
+//!
+//! Based on: A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular meshes by
+//! curve unfolding", Shape Modeling International, 2009, section 3.1. `annealing` is the solver of the paper,
+//! `descent` ours.
+//!
+//! A motion without crossings keeps the knot that the polygon is: what was unfolded was not knotted, and a
+//! knotted polygon is never unfolded, only given up.
+
+mod annealing;
+mod descent;
+mod distance;
+mod energy;
+mod projection;
+#[cfg(test)]
+mod tests;
+
+use super::simple_polygon::Point2;
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::Vec3;
+use crate::math::random::seeded;
+use annealing::Annealing;
+use descent::Descent;
+use distance::SegmentDistances;
+use projection::onto_best_plane;
+
+/// How a curve is unfolded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum UnfoldSolver {
+    /// The vertices repel each other, the edges keep their lengths. Projected before and after each step, and
+    /// done with the first projection that is simple.
+    #[default]
+    Descent,
+    /// Simulated annealing of the planarity of successive vertices, projected after each run: as published.
+    Annealing,
+}
+
+/// How to unfold a curve. Lengths are in mean edge lengths of the curve.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct UnfoldOptions {
+    /// The solver; default [`UnfoldSolver::Descent`].
+    pub solver: UnfoldSolver,
+    /// Runs after which the curve counts as not unfolded; `None` (the default) is 100 for the annealing and 4
+    /// for the descent.
+    pub restarts: Option<usize>,
+    /// Most steps of a run; default 5000.
+    pub steps: usize,
+    /// Start temperature T of the annealing, in radians of its energy; default 0.5.
+    pub temperature: f64,
+    /// Rate of cooling k of the annealing; default 0.9.
+    pub k: f64,
+    /// Distance ε that segments of the curve which are not neighbours keep; default 1e-5.
+    pub epsilon: f64,
+    /// Largest angle in degrees between the directions of a vertex in two successive steps of the annealing, the
+    /// first of which lowered the energy; default 10.
+    pub cone: f64,
+}
+
+impl Default for UnfoldOptions {
+    fn default() -> Self {
+        Self {
+            solver: UnfoldSolver::default(),
+            restarts: None,
+            steps: 5000,
+            temperature: 0.5,
+            k: 0.9,
+            epsilon: 1e-5,
+            cone: 10.0,
+        }
+    }
+}
+
+/// A curve that was unfolded.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Unfolding {
+    /// The simple planar polygon, a vertex for each of the curve, in units of the curve's mean edge length. It may
+    /// turn either way.
+    pub polygon: Vec<[f64; 2]>,
+    /// Runs of the solver, the last of which succeeded; 0 when the curve was projected as it is.
+    pub runs: usize,
+    /// Accepted steps of the last run.
+    pub steps: usize,
+    /// Perimeter of the polygon over that of the curve.
+    pub length_ratio: f64,
+    /// Full turns that the direction of the polygon's edges makes once round it: 1 or -1, up to rounding.
+    pub winding: f64,
+}
+
+/// Unfolds the closed curve through `points` to a simple planar polygon, without letting it cross itself on the
+/// way. The polygon is proved simple by exact predicates.
+///
+/// # Errors
+/// [`ErrorKind::InvalidInput`] for fewer than three points or one that is not finite; [`ErrorKind::Geometry`] when
+/// the curve meets itself or comes nearer to itself than ε; [`ErrorKind::Knotted`] when all runs ended
+/// without a simple polygon, as they do for every knotted curve.
+///
+/// # Complexity
+/// Bounded by runs times steps; a step takes about O(m^1.5) for `m` points.
+pub fn unfold_curve(points: &[[f64; 3]], options: &UnfoldOptions, seed: u64) -> Result<Unfolding> {
+    let points: Vec<Vec3> = points.iter().map(|&p| p.into()).collect();
+    unfold(&points, options, seed, &|| false)
+}
+
+/// [`unfold_curve`] that can be stopped: `interrupted` is asked before each step, true ends the work with
+/// [`ErrorKind::Cancelled`].
+pub(crate) fn unfold(
+    points: &[Vec3],
+    options: &UnfoldOptions,
+    seed: u64,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<Unfolding> {
+    let curve = in_mean_edges(points)?;
+    if options.solver == UnfoldSolver::Descent
+        && let Some(polygon) = onto_best_plane(&curve)
+    {
+        return Ok(unfolded(&curve, polygon, 0, 0));
+    }
+    let distance = SegmentDistances::default().smallest(&curve);
+    if distance.is_nan() || distance <= options.epsilon {
+        return Err(Error::new(
+            ErrorKind::Geometry,
+            format!(
+                "the rim of {} edges comes within {distance:.1e} mean edge lengths of itself",
+                curve.len()
+            ),
+        ));
+    }
+    let default_restarts = match options.solver {
+        UnfoldSolver::Descent => DESCENT_RUNS,
+        UnfoldSolver::Annealing => ANNEALING_RUNS,
+    };
+    let restarts = options.restarts.unwrap_or(default_restarts);
+    for run in 0..restarts {
+        let outcome = match options.solver {
+            UnfoldSolver::Descent => descend(&curve, options, (seed, run), interrupted)?,
+            UnfoldSolver::Annealing => anneal(&curve, options, (seed, run), interrupted)?,
+        };
+        if let Some((polygon, steps)) = outcome {
+            return Ok(unfolded(&curve, polygon, run + 1, steps));
+        }
+    }
+    Err(Error::new(
+        ErrorKind::Knotted,
+        format!(
+            "the rim of {} edges was not unfolded in {restarts} runs: it is knotted or too tangled",
+            curve.len()
+        ),
+    ))
+}
+
+/// Runs before a curve counts as not unfolded: for the annealing that of the paper. The descent hardly depends
+/// on chance: what it does not unfold at once it seldom unfolds later.
+const ANNEALING_RUNS: usize = 100;
+const DESCENT_RUNS: usize = 4;
+
+/// A run of the descent; the polygon and the number of steps if it was unfolded.
+fn descend(
+    curve: &[Vec3],
+    options: &UnfoldOptions,
+    (seed, run): (u64, usize),
+    interrupted: &dyn Fn() -> bool,
+) -> Result<Option<(Vec<Point2>, usize)>> {
+    let kicks = (run > 0).then(|| seeded(seed, run as u64));
+    let mut descent = Descent::new(curve, options.epsilon, kicks);
+    for step in 1..=options.steps {
+        if interrupted() {
+            return Err(Error::cancelled());
+        }
+        if !descent.step() {
+            break;
+        }
+        if let Some(polygon) = onto_best_plane(descent.points()) {
+            return Ok(Some((polygon, step)));
+        }
+    }
+    Ok(None)
+}
+
+/// A run of the annealing; the polygon and the number of accepted steps if it was unfolded.
+fn anneal(
+    curve: &[Vec3],
+    options: &UnfoldOptions,
+    (seed, run): (u64, usize),
+    interrupted: &dyn Fn() -> bool,
+) -> Result<Option<(Vec<Point2>, usize)>> {
+    let mut annealing = Annealing::new(curve, options, seeded(seed, run as u64));
+    let mut accepted = 0;
+    for _ in 0..options.steps {
+        if interrupted() {
+            return Err(Error::cancelled());
+        }
+        accepted += usize::from(annealing.step());
+    }
+    Ok(onto_best_plane(annealing.points()).map(|polygon| (polygon, accepted)))
+}
+
+/// The curve about its centroid, in units of its mean edge length.
+fn in_mean_edges(points: &[Vec3]) -> Result<Vec<Vec3>> {
+    let m = points.len();
+    let invalid = |message: String| Error::new(ErrorKind::InvalidInput, message);
+    if m < 3 {
+        return Err(invalid(format!("a curve of {m} points is not closed")));
+    }
+    let centroid = points.iter().sum::<Vec3>() / m as f64;
+    let mean = perimeter(points) / m as f64;
+    if !mean.is_finite() || !centroid.iter().all(|x| x.is_finite()) {
+        return Err(invalid("a point of the curve is not finite".to_owned()));
+    }
+    if mean <= f64::MIN_POSITIVE {
+        return Err(Error::new(
+            ErrorKind::Geometry,
+            "all points of the curve coincide",
+        ));
+    }
+    Ok(points.iter().map(|p| (p - centroid) / mean).collect())
+}
+
+fn perimeter(points: &[Vec3]) -> f64 {
+    let m = points.len();
+    (0..m)
+        .map(|i| (points[(i + 1) % m] - points[i]).norm())
+        .sum()
+}
+
+fn unfolded(curve: &[Vec3], polygon: Vec<Point2>, runs: usize, steps: usize) -> Unfolding {
+    let m = polygon.len();
+    let edge = |i: usize| {
+        let (p, q) = (polygon[i % m], polygon[(i + 1) % m]);
+        [q[0] - p[0], q[1] - p[1]]
+    };
+    let length: f64 = (0..m).map(|i| edge(i)[0].hypot(edge(i)[1])).sum();
+    let turning: f64 = (0..m)
+        .map(|i| {
+            let (a, b) = (edge(i), edge(i + 1));
+            (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
+        })
+        .sum();
+    Unfolding {
+        length_ratio: length / perimeter(curve),
+        winding: turning / std::f64::consts::TAU,
+        polygon,
+        runs,
+        steps,
+    }
+}

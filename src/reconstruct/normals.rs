@@ -78,7 +78,7 @@ fn spread(cloud: &Cloud, v: u32, near: &[u32]) -> Spread {
     let count = near.len() as f64 + 1.0;
     let centroid = offsets().sum::<Vec3>() / count;
     // The farthest is the last; relative to it nothing underflows.
-    let unit = offsets().last().map_or(1.0, |d| d.norm());
+    let unit = offsets().next_back().map_or(1.0, |d| d.norm());
     let mut covariance = Matrix3::zeros();
     for d in offsets().chain(std::iter::once(Vec3::zeros())) {
         let d = (d - centroid) / unit;

@@ -34,6 +34,7 @@ mod mesh;
 mod patch;
 mod predict;
 mod quality;
+mod reconstruct;
 mod refine;
 mod triangulate;
 
@@ -59,4 +60,5 @@ pub use predict::hpde::options::{
 };
 pub use predict::surface::candidates::Candidate;
 pub use quality::deviation;
+pub use reconstruct::{PointCloud, PointOptions, PointReport, mesh_from_points};
 pub use triangulate::unfold::{UnfoldOptions, UnfoldSolver, Unfolding, unfold_curve};

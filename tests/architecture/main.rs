@@ -55,12 +55,21 @@ const RULES: &[(&str, &[&str])] = &[
             "fair",
         ],
     ),
+    // From points to a mesh: before there are loops to fill.
+    ("reconstruct", &["error", "math", "mesh"]),
     // Plain arrays in and out.
     ("io", &["error", "math", "mesh::attributes"]),
     (
         "ffi",
         &[
-            "error", "math", "mesh", "boundary", "quality", "patch", "fill",
+            "error",
+            "math",
+            "mesh",
+            "boundary",
+            "quality",
+            "patch",
+            "fill",
+            "reconstruct",
         ],
     ),
 ];

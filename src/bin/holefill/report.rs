@@ -41,7 +41,8 @@ pub(crate) fn fill(facts: &FillFacts, report: &FillReport) -> String {
     }))
 }
 
-fn hole(hole: &HoleReport) -> Value {
+/// What happened to a hole.
+pub(crate) fn hole(hole: &HoleReport) -> Value {
     let tried = hole
         .tried
         .iter()

@@ -4,7 +4,7 @@ use crate::args::{FillArgs, FillHow};
 use crate::input::{LoadSeconds, Loaded, seconds_since};
 use crate::preview::Scene;
 use crate::report::FillFacts;
-use crate::{Failure, Outcome, console, destination, input, preview, report, table};
+use crate::{Failure, Outcome, console, input, preview, report, table};
 use holefill::io::{self, MeshData};
 use holefill::{
     BoundaryLoops, Error, ErrorKind, FillOptions, FillReport, HoleStatus, Progress, Selection,
@@ -80,16 +80,11 @@ pub(crate) fn check_destinations(
     output: &Path,
     extra: &[&Path],
 ) -> Result<(), Failure> {
-    if !io::is_known_extension(output) {
-        return Err(Failure::usage(format!(
-            "{}: unknown file type; the known extensions are .ply, .obj, .off and .stl",
-            output.display()
-        )));
-    }
+    io::check_extension(output).map_err(|e| Failure::usage(e.to_string()))?;
     for (i, path) in extra.iter().enumerate() {
         let others = [input, output];
         let mut others = others.iter().chain(&extra[..i]);
-        if let Some(other) = others.find(|other| destination::is_same(path, other)) {
+        if let Some(other) = others.find(|other| io::is_same_destination(path, other)) {
             return Err(Failure::usage(format!(
                 "{} would overwrite {}",
                 path.display(),
@@ -98,7 +93,7 @@ pub(crate) fn check_destinations(
         }
     }
     for path in std::iter::once(&output).chain(extra) {
-        destination::check(path)?;
+        io::check_destination(path).map_err(|e| Failure::file(e.to_string()))?;
     }
     Ok(())
 }

@@ -187,7 +187,7 @@ pub fn read_points(path: impl AsRef<Path>) -> Result<MeshData> {
         return read_as(path, xyz::parse);
     }
     let format = Format::of(path).map_err(|_| {
-        invalid(format!(
+        Error::invalid(format!(
             "{}: unknown file type; points are read from .ply, .xyz, .txt, .obj, .off and .stl",
             path.display()
         ))

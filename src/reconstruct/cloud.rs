@@ -5,7 +5,7 @@
 //! Complexity: O(n log n) to build; O(k log n) for k neighbours.
 
 use super::THINGS_PER_CHECK;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::math::Vec3;
 use rayon::prelude::*;
 use rstar::RTree;

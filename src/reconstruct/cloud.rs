@@ -5,7 +5,7 @@
 //! Complexity: O(n log n) to build; O(k log n) for k neighbours.
 
 use super::THINGS_PER_CHECK;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::math::Vec3;
 use rayon::prelude::*;
 use rstar::RTree;
@@ -33,14 +33,19 @@ impl Cloud {
     /// points than 32-bit indices can name.
     pub(super) fn new(positions: &[[f64; 3]]) -> Result<Self> {
         if positions.len() >= u32::MAX as usize {
-            return Err(invalid(format!("{} points are too many", positions.len())));
+            return Err(Error::invalid(format!(
+                "{} points are too many",
+                positions.len()
+            )));
         }
         if let Some(v) = positions
             .iter()
             .position(|p| !p.iter().all(|c| c.is_finite()))
         {
             let [x, y, z] = positions[v];
-            return Err(invalid(format!("point {v} is not finite: ({x}, {y}, {z})")));
+            return Err(Error::invalid(format!(
+                "point {v} is not finite: ({x}, {y}, {z})"
+            )));
         }
         let (middle, scale) = frame_of(positions)?;
         let local = |p: &[f64; 3]| {
@@ -157,7 +162,7 @@ fn frame_of(positions: &[[f64; 3]]) -> Result<([f64; 3], f64)> {
     }
     let extent = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
     if extent == f64::INFINITY {
-        return Err(invalid(
+        return Err(Error::invalid(
             "the points lie too far apart for double precision".to_owned(),
         ));
     }
@@ -182,8 +187,4 @@ fn first_of_each_place(points: &[Vec3]) -> Vec<u32> {
     order.dedup_by(|later, first| place(*later) == place(*first));
     order.sort_unstable();
     order
-}
-
-fn invalid(message: String) -> Error {
-    Error::new(ErrorKind::InvalidInput, message)
 }

@@ -98,12 +98,12 @@ impl PointOptions {
         if let Some(radius) = self.radius
             && !(radius > 0.0 && radius.is_finite())
         {
-            return Err(invalid(format!(
+            return Err(Error::invalid(format!(
                 "the radius is a positive number, not {radius}"
             )));
         }
         if !(6..=200).contains(&self.neighbours) {
-            return Err(invalid(format!(
+            return Err(Error::invalid(format!(
                 "{} neighbours cannot be used; 6 to 200 can",
                 self.neighbours
             )));
@@ -164,7 +164,7 @@ pub fn mesh_from_points(
     let count = cloud.positions.len();
     check_lengths(&cloud)?;
     if count < FEWEST_POINTS {
-        return Err(invalid(format!(
+        return Err(Error::invalid(format!(
             "{count} points are too few: a mesh needs at least {FEWEST_POINTS}"
         )));
     }
@@ -230,7 +230,7 @@ fn check_lengths(cloud: &PointCloud) -> Result<()> {
     let normals = cloud.normals.as_ref().map_or(count, Vec::len);
     for (what, entries) in [("normals", normals), ("attributes", cloud.attributes.len())] {
         if entries != count {
-            return Err(invalid(format!(
+            return Err(Error::invalid(format!(
                 "there are {entries} {what} for {count} points"
             )));
         }
@@ -285,10 +285,6 @@ fn range(values: Vec<f64>) -> [f64; 3] {
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let high = values.iter().copied().fold(0.0, f64::max);
     [low, reach::median(values).unwrap_or(0.0), high]
-}
-
-fn invalid(message: String) -> Error {
-    Error::new(ErrorKind::InvalidInput, message)
 }
 
 fn geometry(message: String) -> Error {

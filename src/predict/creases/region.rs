@@ -78,7 +78,7 @@ pub(crate) fn fit_regions(
             .into_iter()
             .filter(|c| allowed(*c, is_noisy))
             .collect();
-        let scores = choice::scores(&mut samples, &candidates);
+        let scores = choice::scores(&mut samples, &candidates, hole.polygon.len());
         if let Some(candidate) = choice::choose(&scores, is_noisy)
             && let Some(surface) = candidate.fit_to_rim(&mut samples)
         {

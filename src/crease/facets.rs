@@ -1,7 +1,7 @@
 //! The known triangles round a hole: who meets whom in which edge, and normals from which noise is filtered.
 //!
 //! Normals are filtered by Y. Zheng, H. Fu, O. K.-C. Au, C.-L. Tai, "Bilateral normal filtering for mesh
-//! denoising", IEEE TVCG 17(2), 2011 (the local, iterative scheme), which averages them over neighbours whose
+//! denoising", IEEE TVCG 17(10), 2011 (the local, iterative scheme), which averages them over neighbours whose
 //! normals are alike and so keeps creases. The width of "alike" follows from the normals themselves: a clean mesh is
 //! left as it is.
 

@@ -2,6 +2,7 @@
 
 mod attributes;
 mod conflicts;
+mod creases;
 mod interruption;
 mod islands;
 mod outcomes;

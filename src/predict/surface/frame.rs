@@ -10,7 +10,6 @@ pub(crate) struct Fit<S> {
     /// The surface, in the coordinates of the samples.
     pub(crate) surface: S,
     /// Root mean square of the samples' distances from it, to first order.
-    #[allow(dead_code)] // the regions between creases are told apart by it
     pub(crate) rms: f64,
 }
 

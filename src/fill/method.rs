@@ -23,11 +23,13 @@ pub enum Method {
     UnfoldArea,
     /// The rim unfolded to the plane and triangulated there; refined, faired by the second-order umbrella.
     UnfoldFairing,
+    /// A height field fitted to the points round the hole by moving least squares, and resampled.
+    Mls,
 }
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Auto,
         Self::Flat,
         Self::Membrane,
@@ -35,6 +37,7 @@ impl Method {
         Self::FairC2,
         Self::UnfoldArea,
         Self::UnfoldFairing,
+        Self::Mls,
     ];
 
     /// The name used on the command line and in reports.
@@ -48,6 +51,7 @@ impl Method {
             Self::FairC2 => "fair-c2",
             Self::UnfoldArea => "unfold-area",
             Self::UnfoldFairing => "unfold-fairing",
+            Self::Mls => "mls",
         }
     }
 
@@ -68,6 +72,7 @@ impl Method {
             Self::UnfoldFairing => {
                 "unfold the rim to the plane, triangulate there; refined and faired"
             }
+            Self::Mls => "fit heights round the hole by moving least squares, and resample them",
         }
     }
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod aabb;
 pub(crate) mod box_tree;
+pub(crate) mod least_squares;
 pub(crate) mod plane;
 pub(crate) mod random;
 pub(crate) mod segments;

@@ -1,5 +1,6 @@
 //! The methods: each makes a patch from the shape of a hole, whatever happens to the patch afterwards.
 
+mod mls;
 mod staircase;
 mod unfold;
 
@@ -15,6 +16,9 @@ use unfold::Unfold;
 pub(crate) struct PatchMaker<'a> {
     staircase: Staircase<'a>,
     unfold: Unfold<'a>,
+    hole: &'a HoleShape,
+    options: &'a FillOptions,
+    interrupted: &'a dyn Fn() -> bool,
 }
 
 impl<'a> PatchMaker<'a> {
@@ -27,12 +31,22 @@ impl<'a> PatchMaker<'a> {
         Self {
             staircase: Staircase::new(hole, options, interrupted),
             unfold: Unfold::new(hole, options, interrupted),
+            hole,
+            options,
+            interrupted,
         }
     }
 
     /// What `method` reads of the mesh round the hole.
-    pub(crate) fn reach(method: Method) -> HoleReach {
-        HoleReach::rings(if method == Method::FairC2 { 2 } else { 1 })
+    pub(crate) fn reach(method: Method, options: &FillOptions) -> HoleReach {
+        match method {
+            Method::FairC2 => HoleReach::rings(2),
+            Method::Mls => HoleReach {
+                rings: 1,
+                steps: options.mls.beta,
+            },
+            _ => HoleReach::rings(1),
+        }
     }
 
     /// The patch of `method` in the hole's coordinates. It is not verified yet.
@@ -42,6 +56,7 @@ impl<'a> PatchMaker<'a> {
     pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
         match method {
             Method::UnfoldArea | Method::UnfoldFairing => self.unfold.patch(method),
+            Method::Mls => mls::patch(self.hole, self.options, self.interrupted),
             _ => self.staircase.patch(method),
         }
     }

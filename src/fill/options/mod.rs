@@ -1,6 +1,7 @@
 //! Options of a fill, and every parameter by its documented name.
 
 mod attributes;
+mod mls;
 mod parameter;
 mod staircase;
 mod unfold;
@@ -10,6 +11,7 @@ pub use parameter::Parameter;
 
 use super::method::Method;
 use crate::error::{Error, ErrorKind, Result};
+use crate::predict::mls::MlsOptions;
 use crate::triangulate::unfold::UnfoldOptions;
 use parameter::{number, switch, switch_name};
 
@@ -51,6 +53,8 @@ pub struct FillOptions {
     pub attributes: AttributeOptions,
     /// How [`Method::UnfoldArea`] and [`Method::UnfoldFairing`] unfold the rim.
     pub unfold: UnfoldOptions,
+    /// How [`Method::Mls`] fits and resamples.
+    pub mls: MlsOptions,
 }
 
 impl Default for FillOptions {
@@ -68,6 +72,7 @@ impl Default for FillOptions {
             time_budget: None,
             attributes: AttributeOptions::default(),
             unfold: UnfoldOptions::default(),
+            mls: MlsOptions::default(),
         }
     }
 }
@@ -77,6 +82,7 @@ const GROUPS: &[&[Parameter]] = &[
     FILL,
     staircase::PARAMETERS,
     unfold::PARAMETERS,
+    mls::PARAMETERS,
     attributes::PARAMETERS,
 ];
 

@@ -29,26 +29,73 @@ struct Row {
 }
 
 const TABLE_1: [Row; 5] = [
-    Row { paper: "Bunny", vertices_before: 35_947, vertices_after: 36_478, vicinity: 1_246, seconds: 6.43, model: "bunny_natural" },
-    Row { paper: "Bust", vertices_before: 12_853, vertices_after: 16_162, vicinity: 1_506, seconds: 72.85, model: "skull_patches" },
-    Row { paper: "Angel", vertices_before: 10_189, vertices_after: 11_264, vicinity: 347, seconds: 4.16, model: "gargoyle_like" },
-    Row { paper: "Armchair", vertices_before: 64_159, vertices_after: 65_114, vicinity: 1_873, seconds: 10.93, model: "colored_bunny" },
-    Row { paper: "Buddha", vertices_before: 143_298, vertices_after: 144_701, vicinity: 1_154, seconds: 10.32, model: "lion_natural" },
+    Row {
+        paper: "Bunny",
+        vertices_before: 35_947,
+        vertices_after: 36_478,
+        vicinity: 1_246,
+        seconds: 6.43,
+        model: "bunny_natural",
+    },
+    Row {
+        paper: "Bust",
+        vertices_before: 12_853,
+        vertices_after: 16_162,
+        vicinity: 1_506,
+        seconds: 72.85,
+        model: "skull_patches",
+    },
+    Row {
+        paper: "Angel",
+        vertices_before: 10_189,
+        vertices_after: 11_264,
+        vicinity: 347,
+        seconds: 4.16,
+        model: "gargoyle_like",
+    },
+    Row {
+        paper: "Armchair",
+        vertices_before: 64_159,
+        vertices_after: 65_114,
+        vicinity: 1_873,
+        seconds: 10.93,
+        model: "colored_bunny",
+    },
+    Row {
+        paper: "Buddha",
+        vertices_before: 143_298,
+        vertices_after: 144_701,
+        vicinity: 1_154,
+        seconds: 10.32,
+        model: "lion_natural",
+    },
 ];
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = std::env::args().nth(1).ok_or("which folder are the models in?")?;
+    let folder = std::env::args()
+        .nth(1)
+        .ok_or("which folder are the models in?")?;
     let folder = Path::new(&folder);
     println!("# Moving least squares beside the paper\n");
-    println!("J. Wang, M. M. Oliveira, \"Filling holes on locally smooth surfaces reconstructed from point clouds\", 2006. Made by `cargo run --example mls_tables -- FOLDER` on one thread; times are the fastest of {RUNS} runs, of filling alone. The paper's are from a Pentium 4 with 2.0 GHz.\n");
+    println!(
+        "J. Wang, M. M. Oliveira, \"Filling holes on locally smooth surfaces reconstructed from point clouds\", 2006. Made by `cargo run --example mls_tables -- FOLDER` on one thread; times are the fastest of {RUNS} runs, of filling alone. The paper's are from a Pentium 4 with 2.0 GHz.\n"
+    );
     println!("## Table 1: statistics and running times\n");
-    println!("The paper's models are not at hand, but for the bunny; each row has one of ours beside it that is as near as we have. `mls` holes are those that the method filled, of all.\n");
-    println!("| paper | vertices | after | new | seconds | ours | vertices | after | new | `mls` holes | seconds | paper's over ours |");
+    println!(
+        "The paper's models are not at hand, but for the bunny; each row has one of ours beside it that is as near as we have. `mls` holes are those that the method filled, of all.\n"
+    );
+    println!(
+        "| paper | vertices | after | new | seconds | ours | vertices | after | new | `mls` holes | seconds | paper's over ours |"
+    );
     println!("| --- | ---: | ---: | ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: |");
     for row in &TABLE_1 {
         let (mesh, selection) = read(folder, row.model)?;
         let (report, after, seconds) = fill(&mesh, &selection, &options(&[])?)?;
-        let by_mls = report.holes.iter().filter(|h| h.method == Some(Method::Mls)).count();
+        let by_mls = report
+            .holes
+            .iter()
+            .filter(|h| h.method == Some(Method::Mls))
+            .count();
         let before = mesh.positions().len();
         println!(
             "| {} | {} | {} | {} | {} | `{}` | {before} | {} | {} | {by_mls} of {} | {seconds:.4} | {:.0} |",
@@ -73,15 +120,21 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Tables 3 and 4: two caps of a sphere.
 fn caps(folder: &Path) -> Result<(), Box<dyn Error>> {
     println!("\n## Tables 3 and 4: caps of a sphere\n");
-    println!("A sphere of radius 5 without a cap of half-angle 30 and 60 degrees; 180 points of the vicinity each (Table 3). The error is the mean distance of the new vertices from the sphere, over its radius. The plane makes the paper's \"egg\" of the larger cap; the curved domain does not.\n");
-    println!("| model | vertices | triangles | after, paper | after, ours | domain | mean error | seconds |");
+    println!(
+        "A sphere of radius 5 without a cap of half-angle 30 and 60 degrees; 180 points of the vicinity each (Table 3). The error is the mean distance of the new vertices from the sphere, over its radius. The plane makes the paper's \"egg\" of the larger cap; the curved domain does not.\n"
+    );
+    println!(
+        "| model | vertices | triangles | after, paper | after, ours | domain | mean error | seconds |"
+    );
     println!("| --- | ---: | ---: | ---: | ---: | --- | ---: | ---: |");
     for (model, paper) in [("mls_cap30", "3542 / 7080"), ("mls_cap60", "3672 / 7098")] {
         let (mesh, selection) = read(folder, model)?;
         for domain in ["plane", "curved"] {
-            let (_, after, seconds) = fill(&mesh, &selection, &options(&[("mls.domain", domain)])?)?;
+            let (_, after, seconds) =
+                fill(&mesh, &selection, &options(&[("mls.domain", domain)])?)?;
             let new = &after.positions()[mesh.positions().len()..];
-            let error = |p: &[f64; 3]| (p.iter().map(|x| x * x).sum::<f64>().sqrt() / 5.0 - 1.0).abs();
+            let error =
+                |p: &[f64; 3]| (p.iter().map(|x| x * x).sum::<f64>().sqrt() / 5.0 - 1.0).abs();
             let mean = new.iter().map(error).sum::<f64>() / new.len().max(1) as f64;
             println!(
                 "| `{model}` | {} | {} | {paper} | {} / {} | {domain} | {mean:.1e} | {seconds:.4} |",
@@ -98,7 +151,9 @@ fn caps(folder: &Path) -> Result<(), Box<dyn Error>> {
 /// Holes of the sizes in the paper's Table 1, each as one cap of a sphere.
 fn rows_by_size() -> Result<(), Box<dyn Error>> {
     println!("\n## Table 1 by size\n");
-    println!("The cost depends on the points of the vicinity m and the samples k. One hole each with at least the m and the k of the paper's row, in a sphere:\n");
+    println!(
+        "The cost depends on the points of the vicinity m and the samples k. One hole each with at least the m and the k of the paper's row, in a sphere:\n"
+    );
     println!("| paper | m | k | seconds | ours m | k | seconds | paper's over ours |");
     println!("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
     for row in &TABLE_1 {
@@ -127,7 +182,9 @@ fn rows_by_size() -> Result<(), Box<dyn Error>> {
 /// The time over m and k.
 fn scaling() -> Result<(), Box<dyn Error>> {
     println!("\n## Cost over m and k\n");
-    println!("A cap of 30 degrees of finer and finer spheres, with a narrow and a wide vicinity. The time over m k tends to a constant.\n");
+    println!(
+        "A cap of 30 degrees of finer and finer spheres, with a narrow and a wide vicinity. The time over m k tends to a constant.\n"
+    );
     println!("| m | k | seconds | nanoseconds / (m k) | |");
     println!("| ---: | ---: | ---: | ---: | --- |");
     for rows in [3, 6] {
@@ -137,7 +194,10 @@ fn scaling() -> Result<(), Box<dyn Error>> {
             let per_product = seconds / (m * k) as f64 * 1e9;
             // A bar of one mark for each factor of the square root of ten from a tenth of a millisecond on.
             let marks = (2.0 * (seconds * 1e4).log10()).round().max(0.0) as usize;
-            println!("| {m} | {k} | {seconds:.4} | {per_product:.0} | {} |", "#".repeat(marks));
+            println!(
+                "| {m} | {k} | {seconds:.4} | {per_product:.0} | {} |",
+                "#".repeat(marks)
+            );
         }
     }
     Ok(())
@@ -154,12 +214,21 @@ impl Cap {
         let rows = meridians / 2;
         let first = rows * degrees / 180;
         let at = |row: usize, i: usize| {
-            let (theta, phi) = (TAU / 2.0 * row as f64 / rows as f64, TAU * i as f64 / meridians as f64);
-            [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
+            let (theta, phi) = (
+                TAU / 2.0 * row as f64 / rows as f64,
+                TAU * i as f64 / meridians as f64,
+            );
+            [
+                theta.sin() * phi.cos(),
+                theta.sin() * phi.sin(),
+                theta.cos(),
+            ]
         };
         let parallels = first..rows;
-        let mut positions: Vec<[f64; 3]> =
-            parallels.clone().flat_map(|row| (0..meridians).map(move |i| at(row, i))).collect();
+        let mut positions: Vec<[f64; 3]> = parallels
+            .clone()
+            .flat_map(|row| (0..meridians).map(move |i| at(row, i)))
+            .collect();
         positions.push([0.0, 0.0, -1.0]);
         let mut triangles = Vec::new();
         for row in parallels {
@@ -182,7 +251,11 @@ impl Cap {
     fn beta(&self, parallels: usize) -> f64 {
         let p = |v: u32| self.mesh.positions()[v as usize];
         let rim = self.meridians as u32;
-        let touching = self.mesh.triangles().iter().filter(|t| t.iter().any(|&v| v < rim));
+        let touching = self
+            .mesh
+            .triangles()
+            .iter()
+            .filter(|t| t.iter().any(|&v| v < rim));
         let area: f64 = touching.map(|t| area(t.map(p))).sum();
         let step = (area / (3.0 * f64::from(rim))).sqrt();
         let apart = distance(p(0), p(rim));
@@ -206,7 +279,10 @@ impl Cap {
 }
 
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>().sqrt()
+    (0..3)
+        .map(|k| (a[k] - b[k]) * (a[k] - b[k]))
+        .sum::<f64>()
+        .sqrt()
 }
 
 fn area([a, b, c]: [[f64; 3]; 3]) -> f64 {

@@ -58,6 +58,7 @@ pub use mesh::trimesh::TriMesh;
 pub use predict::hpde::options::{
     DeCrossover, DeMutation, HpdeOptions, HpdeProjection, HpdeSolver, HpdeTangents,
 };
+pub use predict::mls::{MlsDomain, MlsOptions, MlsUnit};
 pub use predict::surface::candidates::Candidate;
 pub use quality::deviation;
 pub use reconstruct::{PointCloud, PointOptions, PointReport, mesh_from_points};

@@ -146,14 +146,18 @@ impl Hole {
             .band(mesh, Reach::rings(reach.rings.max(1)))
             .surroundings;
         if reach.steps > 0.0 {
-            let reach = Reach {
-                rings: reach.rings,
-                distance: reach.steps * hole.shape.sampling_step() * scale,
-            };
-            hole.shape.surroundings = hole.band(mesh, reach).surroundings;
+            hole.shape.surroundings = hole.band(mesh, hole.in_mesh(reach)).surroundings;
         }
         hole.shape.edge_lengths = mean_edge_lengths(&hole.shape.points, &hole.shape.surroundings);
         Ok(hole)
+    }
+
+    /// The reach in units of the mesh.
+    pub(crate) fn in_mesh(&self, reach: HoleReach) -> Reach {
+        Reach {
+            rings: reach.rings,
+            distance: reach.steps * self.shape.sampling_step() * self.scale,
+        }
     }
 
     /// The triangles of `mesh` round the hole as far as `reach` says.

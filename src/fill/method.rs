@@ -28,11 +28,13 @@ pub enum Method {
     UnfoldArea,
     /// The rim unfolded to the plane and triangulated there; refined, faired by the second-order umbrella.
     UnfoldFairing,
+    /// A height field fitted to the points round the hole by moving least squares, and resampled.
+    Mls,
 }
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Auto,
         Self::Curvature,
         Self::Flat,
@@ -42,6 +44,7 @@ impl Method {
         Self::Hpde,
         Self::UnfoldArea,
         Self::UnfoldFairing,
+        Self::Mls,
     ];
 
     /// The name used on the command line and in reports.
@@ -57,6 +60,7 @@ impl Method {
             Self::Hpde => "hpde",
             Self::UnfoldArea => "unfold-area",
             Self::UnfoldFairing => "unfold-fairing",
+            Self::Mls => "mls",
         }
     }
 
@@ -88,6 +92,7 @@ impl Method {
             Self::UnfoldFairing => {
                 "unfold the rim to the plane, triangulate there; refined and faired"
             }
+            Self::Mls => "fit heights round the hole by moving least squares, and resample them",
         }
     }
 }

@@ -79,6 +79,7 @@ pub(crate) fn chain(options: &FillOptions) -> Vec<Method> {
             Method::Flat,
         ],
         Method::UnfoldArea => &[Method::Membrane, Method::Flat],
+        Method::Mls => &[Method::FairC1, Method::Membrane, Method::Flat],
         _ => {
             let place = staircase.iter().position(|&m| m == first);
             &staircase[place.map_or(0, |i| i + 1)..]
@@ -108,7 +109,7 @@ impl Planner<'_> {
     ) -> std::result::Result<Plan, Failure> {
         let reach = methods
             .iter()
-            .map(|&m| PatchMaker::reach(m))
+            .map(|&m| PatchMaker::reach(m, self.options))
             .fold(HoleReach::rings(1), HoleReach::union);
         match Hole::new(self.mesh, outer, islands, reach) {
             Ok(hole) => self.plan_hole(hole, methods),
@@ -220,7 +221,8 @@ impl Planner<'_> {
             mesh: self.mesh,
             hole: &hole,
             surface: &surface,
-            options: &self.options.attributes,
+            options: self.options,
+            method,
             interrupted: self.interrupted,
         };
         let attributes = match task.carry() {

@@ -3,4 +3,5 @@
 pub(crate) mod creases;
 pub(crate) mod hpde;
 mod jet;
+pub(crate) mod mls;
 pub(crate) mod surface;

@@ -3,6 +3,7 @@
 mod auto;
 mod creases;
 mod hpde;
+mod mls;
 mod staircase;
 mod unfold;
 
@@ -44,13 +45,17 @@ impl<'a> PatchMaker<'a> {
     }
 
     /// What `method` reads of the mesh round the hole, for those that it falls back to as well.
-    pub(crate) fn reach(method: Method) -> HoleReach {
-        HoleReach::rings(match method {
-            Method::Auto | Method::Curvature => auto::RINGS,
-            Method::Hpde => hpde::RING_COUNT,
-            Method::FairC2 => 2,
-            _ => 1,
-        })
+    pub(crate) fn reach(method: Method, options: &FillOptions) -> HoleReach {
+        match method {
+            Method::Auto | Method::Curvature => HoleReach::rings(auto::RINGS),
+            Method::Hpde => HoleReach::rings(hpde::RING_COUNT),
+            Method::FairC2 => HoleReach::rings(2),
+            Method::Mls => HoleReach {
+                rings: 1,
+                steps: options.mls.beta,
+            },
+            _ => HoleReach::rings(1),
+        }
     }
 
     /// The patch of `method` in the hole's coordinates. It is not verified yet.
@@ -66,6 +71,7 @@ impl<'a> PatchMaker<'a> {
                 ErrorKind::Geometry,
                 "the surroundings are too noisy to read curvature from",
             )),
+            Method::Mls => mls::patch(self.hole, self.options, self.interrupted),
             _ => self.staircase.patch(method),
         }
     }

@@ -3,6 +3,7 @@
 mod attributes;
 mod auto;
 mod hpde;
+mod mls;
 mod parameter;
 mod staircase;
 mod unfold;
@@ -14,6 +15,7 @@ pub use parameter::Parameter;
 use super::method::Method;
 use crate::error::{Error, ErrorKind, Result};
 use crate::predict::hpde::options::HpdeOptions;
+use crate::predict::mls::MlsOptions;
 use crate::triangulate::unfold::UnfoldOptions;
 use parameter::{number, switch, switch_name};
 
@@ -59,6 +61,8 @@ pub struct FillOptions {
     pub attributes: AttributeOptions,
     /// How [`Method::UnfoldArea`] and [`Method::UnfoldFairing`] unfold the rim.
     pub unfold: UnfoldOptions,
+    /// How [`Method::Mls`] fits and resamples.
+    pub mls: MlsOptions,
 }
 
 impl Default for FillOptions {
@@ -78,6 +82,7 @@ impl Default for FillOptions {
             time_budget: None,
             attributes: AttributeOptions::default(),
             unfold: UnfoldOptions::default(),
+            mls: MlsOptions::default(),
         }
     }
 }
@@ -89,6 +94,7 @@ const GROUPS: &[&[Parameter]] = &[
     staircase::PARAMETERS,
     hpde::PARAMETERS,
     unfold::PARAMETERS,
+    mls::PARAMETERS,
     attributes::PARAMETERS,
 ];
 

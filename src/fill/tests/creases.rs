@@ -101,9 +101,11 @@ fn a_little_noise_does_not_hide_an_edge() {
     }
 }
 
+type HeightField = fn(f64, f64) -> f64;
+
 #[test]
 fn valleys_ridges_steps_and_tips_of_pyramids_come_back() {
-    let shapes: [(fn(f64, f64) -> f64, usize); 4] = [
+    let shapes: [(HeightField, usize); 4] = [
         // A valley; a ridge; two parallel edges; four planes that meet in one point.
         (|x, _| (x - 12.0).abs(), 1),
         (|x, _| -2.0 * (x - 12.0).abs(), 1),

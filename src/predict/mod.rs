@@ -1,4 +1,6 @@
 //! Predicts the surface that was there before the hole.
 
 pub(crate) mod creases;
+pub(crate) mod hpde;
+mod jet;
 pub(crate) mod surface;

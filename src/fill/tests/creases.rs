@@ -5,6 +5,9 @@ use crate::boundary::select::Selection;
 use crate::fill::method::Method;
 use crate::fixtures::{Arrays, cube, grid, sheet, sphere, torus};
 
+/// The height of a sheet.
+type Height = fn(f64, f64) -> f64;
+
 /// What lies on the shape, by its distance.
 type Distance = fn([f64; 3]) -> f64;
 
@@ -89,7 +92,7 @@ fn the_answer_turns_with_the_model() {
 
 #[test]
 fn valleys_ridges_and_tips_of_pyramids_come_back() {
-    let shapes: [(fn(f64, f64) -> f64, usize); 3] = [
+    let shapes: [(Height, usize); 3] = [
         // A valley; a ridge; four planes that meet in one point.
         (|x, _| (x - 12.0).abs(), 1),
         (|x, _| -2.0 * (x - 12.0).abs(), 1),

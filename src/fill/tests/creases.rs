@@ -5,6 +5,9 @@ use crate::boundary::select::Selection;
 use crate::fill::method::Method;
 use crate::fixtures::{Arrays, cube, grid, sheet, sphere, torus};
 
+/// The height of a sheet.
+type Height = fn(f64, f64) -> f64;
+
 /// What lies on the shape, by its distance.
 type Distance = fn([f64; 3]) -> f64;
 
@@ -88,28 +91,11 @@ fn the_answer_turns_with_the_model() {
 }
 
 #[test]
-fn a_little_noise_does_not_hide_an_edge() {
-    for amount in [1e-3, 5e-3] {
-        let whole = cube(16).jittered(amount, 7);
-        let filled = filled(
-            &cut_ball(&whole, [1.0, 1.0, 0.1], 0.4),
-            &Selection::default(),
-        );
-        assert_eq!(crease_count(&filled), 1, "{:?}", reasons(&filled));
-        let deviation = deviation(&filled, from_cube);
-        assert!(deviation < 4.0 * amount, "{amount}: {deviation}");
-    }
-}
-
-type HeightField = fn(f64, f64) -> f64;
-
-#[test]
-fn valleys_ridges_steps_and_tips_of_pyramids_come_back() {
-    let shapes: [(HeightField, usize); 4] = [
-        // A valley; a ridge; two parallel edges; four planes that meet in one point.
+fn valleys_ridges_and_tips_of_pyramids_come_back() {
+    let shapes: [(Height, usize); 3] = [
+        // A valley; a ridge; four planes that meet in one point.
         (|x, _| (x - 12.0).abs(), 1),
         (|x, _| -2.0 * (x - 12.0).abs(), 1),
-        (|x, _| 1.2 * (x - 10.0).clamp(0.0, 4.0), 2),
         (|x, y| -(x - 12.0).abs() - (y - 12.0).abs(), 4),
     ];
     for (i, (height, count)) in shapes.into_iter().enumerate() {

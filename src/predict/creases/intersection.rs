@@ -58,7 +58,9 @@ fn common_point(surfaces: [&dyn Implicit; 2], start: Vec3, limit: f64) -> Option
         let [(f, df), (g, dg)] = surfaces.map(|s| s.value_and_gradient(&p));
         let (a, b, c) = (df.norm_squared(), df.dot(&dg), dg.norm_squared());
         let determinant = a * c - b * b;
-        if determinant.is_nan() || determinant <= SMALLEST_SINE * SMALLEST_SINE * a * c {
+        let smallest = SMALLEST_SINE * SMALLEST_SINE * a * c;
+        // Not a number determines nothing.
+        if determinant.is_nan() || determinant <= smallest {
             return None;
         }
         let step = df * ((c * f - b * g) / determinant) + dg * ((a * g - b * f) / determinant);
@@ -89,7 +91,8 @@ impl Curve<'_> {
         let mut line = traced.unwrap_or_else(|| self.ends.to_vec());
         for _ in 0..DIVISIONS {
             let total = length(&line);
-            if total.is_nan() || total > LONGEST_DETOUR * (self.ends[1] - self.ends[0]).norm() {
+            let longest = LONGEST_DETOUR * (self.ends[1] - self.ends[0]).norm();
+            if total.is_nan() || total > longest {
                 return None;
             }
             let count = (total / self.step).round().max(1.0) as usize;

@@ -1,5 +1,6 @@
 //! The methods: each makes a patch from the shape of a hole, whatever happens to the patch afterwards.
 
+mod hpde;
 mod staircase;
 mod unfold;
 
@@ -13,6 +14,9 @@ use unfold::Unfold;
 
 /// Makes patches for one hole by one method after the other; what several methods share is done once.
 pub(crate) struct PatchMaker<'a> {
+    hole: &'a HoleShape,
+    options: &'a FillOptions,
+    interrupted: &'a dyn Fn() -> bool,
     staircase: Staircase<'a>,
     unfold: Unfold<'a>,
 }
@@ -25,6 +29,9 @@ impl<'a> PatchMaker<'a> {
         interrupted: &'a dyn Fn() -> bool,
     ) -> Self {
         Self {
+            hole,
+            options,
+            interrupted,
             staircase: Staircase::new(hole, options, interrupted),
             unfold: Unfold::new(hole, options, interrupted),
         }
@@ -32,7 +39,11 @@ impl<'a> PatchMaker<'a> {
 
     /// What `method` reads of the mesh round the hole.
     pub(crate) fn reach(method: Method) -> HoleReach {
-        HoleReach::rings(if method == Method::FairC2 { 2 } else { 1 })
+        HoleReach::rings(match method {
+            Method::Hpde => hpde::RING_COUNT,
+            Method::FairC2 => 2,
+            _ => 1,
+        })
     }
 
     /// The patch of `method` in the hole's coordinates. It is not verified yet.
@@ -41,6 +52,7 @@ impl<'a> PatchMaker<'a> {
     /// Those of the method, and [`crate::ErrorKind::Cancelled`].
     pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
         match method {
+            Method::Hpde => hpde::patch(self.hole, self.options, self.interrupted),
             Method::UnfoldArea | Method::UnfoldFairing => self.unfold.patch(method),
             _ => self.staircase.patch(method),
         }

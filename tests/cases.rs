@@ -14,11 +14,12 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-const METHODS: [Method; 4] = [
+const METHODS: [Method; 5] = [
     Method::Flat,
     Method::Membrane,
     Method::FairC1,
     Method::FairC2,
+    Method::Hpde,
 ];
 
 /// Cases in which a method may leave intersections of a patch, of those whose own truth has none.

@@ -1,3 +1,5 @@
 //! Predicts the surface that was there before the hole.
 
+pub(crate) mod hpde;
+mod jet;
 pub(crate) mod surface;

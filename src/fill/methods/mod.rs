@@ -1,6 +1,7 @@
 //! The methods: each makes a patch from the shape of a hole, whatever happens to the patch afterwards.
 
 mod auto;
+mod hpde;
 mod staircase;
 mod unfold;
 
@@ -16,6 +17,9 @@ use unfold::Unfold;
 
 /// Makes patches for one hole by one method after the other; what several methods share is done once.
 pub(crate) struct PatchMaker<'a> {
+    hole: &'a HoleShape,
+    options: &'a FillOptions,
+    interrupted: &'a dyn Fn() -> bool,
     staircase: Staircase<'a>,
     auto: Auto<'a>,
     unfold: Unfold<'a>,
@@ -29,6 +33,9 @@ impl<'a> PatchMaker<'a> {
         interrupted: &'a dyn Fn() -> bool,
     ) -> Self {
         Self {
+            hole,
+            options,
+            interrupted,
             staircase: Staircase::new(hole, options, interrupted),
             auto: Auto::new(hole, options, interrupted),
             unfold: Unfold::new(hole, options, interrupted),
@@ -39,6 +46,7 @@ impl<'a> PatchMaker<'a> {
     pub(crate) fn reach(method: Method) -> HoleReach {
         HoleReach::rings(match method {
             Method::Auto | Method::Curvature => auto::RINGS,
+            Method::Hpde => hpde::RING_COUNT,
             Method::FairC2 => 2,
             _ => 1,
         })
@@ -51,6 +59,7 @@ impl<'a> PatchMaker<'a> {
     pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
         match method {
             Method::Auto | Method::Curvature => self.auto.patch(method, &mut self.staircase),
+            Method::Hpde => hpde::patch(self.hole, self.options, self.interrupted),
             Method::UnfoldArea | Method::UnfoldFairing => self.unfold.patch(method),
             Method::FairC2 if self.auto.is_noisy() => Err(Error::new(
                 ErrorKind::Geometry,

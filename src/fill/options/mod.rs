@@ -2,6 +2,7 @@
 
 mod attributes;
 mod auto;
+mod hpde;
 mod parameter;
 mod staircase;
 mod unfold;
@@ -12,6 +13,7 @@ pub use parameter::Parameter;
 
 use super::method::Method;
 use crate::error::{Error, ErrorKind, Result};
+use crate::predict::hpde::options::HpdeOptions;
 use crate::triangulate::unfold::UnfoldOptions;
 use parameter::{number, switch, switch_name};
 
@@ -47,6 +49,8 @@ pub struct FillOptions {
     pub max_new_vertices: usize,
     /// What [`Method::Auto`] and [`Method::Curvature`] do.
     pub auto: AutoOptions,
+    /// Options of [`Method::Hpde`].
+    pub hpde: HpdeOptions,
     /// Seconds that a fill may take; holes that are not finished then fail with [`ErrorKind::Limit`] and are as
     /// they were. `None` (the default) sets no limit. Which holes are finished in time depends on the
     /// machine; a patch that is finished is the same as without a limit.
@@ -70,6 +74,7 @@ impl Default for FillOptions {
             grading: None,
             max_new_vertices: 10_000_000,
             auto: AutoOptions::default(),
+            hpde: HpdeOptions::default(),
             time_budget: None,
             attributes: AttributeOptions::default(),
             unfold: UnfoldOptions::default(),
@@ -82,6 +87,7 @@ const GROUPS: &[&[Parameter]] = &[
     FILL,
     auto::PARAMETERS,
     staircase::PARAMETERS,
+    hpde::PARAMETERS,
     unfold::PARAMETERS,
     attributes::PARAMETERS,
 ];

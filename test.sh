@@ -94,7 +94,7 @@ holefill inspect "$demo/filled.ply" --json | tr -d ' \n' | grep -q '"loops":\[\]
     fail "the demo left a hole open"
 
 say "the same bytes for any number of threads, and again"
-for method in flat membrane fair-c1 fair-c2; do
+for method in flat membrane fair-c1 fair-c2 hpde; do
     for threads in 1 2 1 2; do
         holefill fill "$demo/damaged.ply" -o "$scratch/out.ply" --method "$method" --threads "$threads" --quiet
         sha256sum <"$scratch/out.ply" | cut -d" " -f1

@@ -51,6 +51,9 @@ pub use mesh::attributes::{
 };
 pub use mesh::defects::{Defect, MeshDefects};
 pub use mesh::trimesh::TriMesh;
+pub use predict::hpde::options::{
+    DeCrossover, DeMutation, HpdeOptions, HpdeProjection, HpdeSolver, HpdeTangents,
+};
 pub use predict::mls::{MlsDomain, MlsOptions, MlsUnit};
 pub use quality::deviation;
 pub use triangulate::unfold::{UnfoldOptions, UnfoldSolver, Unfolding, unfold_curve};

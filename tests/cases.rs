@@ -14,11 +14,12 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-const METHODS: [Method; 5] = [
+const METHODS: [Method; 6] = [
     Method::Flat,
     Method::Membrane,
     Method::FairC1,
     Method::FairC2,
+    Method::Hpde,
     Method::Mls,
 ];
 

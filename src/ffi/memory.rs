@@ -249,6 +249,13 @@ pub(super) fn scalar_size(scalar_type: HolefillType) -> Option<usize> {
     }
 }
 
+/// No address space is larger: processors of 64 bits use at most 57 of them, one for the system.
+const MOST_BYTES: usize = if usize::BITS == 64 {
+    1 << 56
+} else {
+    isize::MAX as usize
+};
+
 /// Rows in the caller's memory, whose extent was checked.
 #[derive(Clone, Copy)]
 struct Rows {
@@ -297,7 +304,7 @@ impl Rows {
         }
         let count = usize::try_from(view.count).map_err(|_| overflow())?;
         let extent = count.checked_mul(stride).ok_or_else(overflow)?;
-        if extent > isize::MAX as usize || (view.data as usize).checked_add(extent).is_none() {
+        if extent > MOST_BYTES || (view.data as usize).checked_add(extent).is_none() {
             return Err(overflow());
         }
         if count > 0 && view.data.is_null() {

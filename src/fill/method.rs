@@ -19,6 +19,8 @@ pub enum Method {
     FairC1,
     /// Refined, then faired to meet the surroundings with common curvature.
     FairC2,
+    /// Sections between facing points of the rim, by differential evolution (Xie & Zou 2013).
+    Hpde,
     /// The rim unfolded to the plane and triangulated there; refined, of least area.
     UnfoldArea,
     /// The rim unfolded to the plane and triangulated there; refined, faired by the second-order umbrella.
@@ -35,6 +37,7 @@ impl Method {
         Self::Membrane,
         Self::FairC1,
         Self::FairC2,
+        Self::Hpde,
         Self::UnfoldArea,
         Self::UnfoldFairing,
         Self::Mls,
@@ -49,6 +52,7 @@ impl Method {
             Self::Membrane => "membrane",
             Self::FairC1 => "fair-c1",
             Self::FairC2 => "fair-c2",
+            Self::Hpde => "hpde",
             Self::UnfoldArea => "unfold-area",
             Self::UnfoldFairing => "unfold-fairing",
             Self::Mls => "mls",
@@ -66,6 +70,7 @@ impl Method {
             }
             Self::FairC1 => "refine, then fair with a common tangent plane along the rim",
             Self::FairC2 => "refine, then fair with common curvature along the rim",
+            Self::Hpde => "sections between facing points of the rim, by differential evolution",
             Self::UnfoldArea => {
                 "unfold the rim to the plane, triangulate there; refined, of least area"
             }

@@ -1,5 +1,6 @@
 //! The methods: each makes a patch from the shape of a hole, whatever happens to the patch afterwards.
 
+mod hpde;
 mod mls;
 mod staircase;
 mod unfold;
@@ -14,11 +15,11 @@ use unfold::Unfold;
 
 /// Makes patches for one hole by one method after the other; what several methods share is done once.
 pub(crate) struct PatchMaker<'a> {
-    staircase: Staircase<'a>,
-    unfold: Unfold<'a>,
     hole: &'a HoleShape,
     options: &'a FillOptions,
     interrupted: &'a dyn Fn() -> bool,
+    staircase: Staircase<'a>,
+    unfold: Unfold<'a>,
 }
 
 impl<'a> PatchMaker<'a> {
@@ -29,11 +30,11 @@ impl<'a> PatchMaker<'a> {
         interrupted: &'a dyn Fn() -> bool,
     ) -> Self {
         Self {
-            staircase: Staircase::new(hole, options, interrupted),
-            unfold: Unfold::new(hole, options, interrupted),
             hole,
             options,
             interrupted,
+            staircase: Staircase::new(hole, options, interrupted),
+            unfold: Unfold::new(hole, options, interrupted),
         }
     }
 
@@ -41,6 +42,7 @@ impl<'a> PatchMaker<'a> {
     pub(crate) fn reach(method: Method, options: &FillOptions) -> HoleReach {
         match method {
             Method::FairC2 => HoleReach::rings(2),
+            Method::Hpde => HoleReach::rings(hpde::RING_COUNT),
             Method::Mls => HoleReach {
                 rings: 1,
                 steps: options.mls.beta,
@@ -55,6 +57,7 @@ impl<'a> PatchMaker<'a> {
     /// Those of the method, and [`crate::ErrorKind::Cancelled`].
     pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
         match method {
+            Method::Hpde => hpde::patch(self.hole, self.options, self.interrupted),
             Method::UnfoldArea | Method::UnfoldFairing => self.unfold.patch(method),
             Method::Mls => mls::patch(self.hole, self.options, self.interrupted),
             _ => self.staircase.patch(method),

@@ -1,6 +1,7 @@
 //! Options of a fill, and every parameter by its documented name.
 
 mod attributes;
+mod hpde;
 mod mls;
 mod parameter;
 mod staircase;
@@ -11,6 +12,7 @@ pub use parameter::Parameter;
 
 use super::method::Method;
 use crate::error::{Error, ErrorKind, Result};
+use crate::predict::hpde::options::HpdeOptions;
 use crate::predict::mls::MlsOptions;
 use crate::triangulate::unfold::UnfoldOptions;
 use parameter::{number, switch, switch_name};
@@ -45,6 +47,8 @@ pub struct FillOptions {
     pub grading: Option<f64>,
     /// Largest number of new vertices in one hole; default 10,000,000.
     pub max_new_vertices: usize,
+    /// Options of [`Method::Hpde`].
+    pub hpde: HpdeOptions,
     /// Seconds that a fill may take; holes that are not finished then fail with [`ErrorKind::Limit`] and are as
     /// they were. `None` (the default) sets no limit. Which holes are finished in time depends on the
     /// machine; a patch that is finished is the same as without a limit.
@@ -69,6 +73,7 @@ impl Default for FillOptions {
             density: 1.0,
             grading: None,
             max_new_vertices: 10_000_000,
+            hpde: HpdeOptions::default(),
             time_budget: None,
             attributes: AttributeOptions::default(),
             unfold: UnfoldOptions::default(),
@@ -81,6 +86,7 @@ impl Default for FillOptions {
 const GROUPS: &[&[Parameter]] = &[
     FILL,
     staircase::PARAMETERS,
+    hpde::PARAMETERS,
     unfold::PARAMETERS,
     mls::PARAMETERS,
     attributes::PARAMETERS,

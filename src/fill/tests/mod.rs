@@ -26,11 +26,12 @@ use crate::quality::topology::{Topology, examine};
 use std::collections::BTreeSet;
 
 /// The methods that are not a choice among the others.
-const METHODS: [Method; 4] = [
+const METHODS: [Method; 5] = [
     Method::Flat,
     Method::Membrane,
     Method::FairC1,
     Method::FairC2,
+    Method::Hpde,
 ];
 
 fn mesh_of(arrays: &Arrays) -> TriMesh {

@@ -1,1 +1,0 @@
-//! What C callers can do wrong, and what they get.

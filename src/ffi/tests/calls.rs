@@ -1,0 +1,607 @@
+//! What every function does when it is used as it should be.
+
+use super::*;
+use crate::boundary::select::Selection;
+use crate::fill::options::FillOptions;
+use crate::fill::session::{FillSession, Target};
+use crate::mesh::trimesh::TriMesh;
+
+#[test]
+fn a_fill_through_c_gives_the_bits_of_a_fill_through_rust() {
+    let arrays = holed();
+    for (method, name) in [(c"flat", "flat"), (c"fair-c2", "fair-c2")] {
+        let mesh = mesh_of(&arrays);
+        assert_eq!(fill_all(mesh.0, &with_method(method)), HOLEFILL_STATUS_OK);
+        let rust = TriMesh::new(arrays.positions.clone(), arrays.triangles.clone()).unwrap();
+        let mut session = FillSession::new(rust);
+        let options = FillOptions {
+            method: name.parse().unwrap(),
+            threads: 1,
+            ..FillOptions::default()
+        };
+        let selection = Selection::default();
+        session
+            .fill(Target::Selected(&selection), &options, None)
+            .unwrap();
+        assert_eq!(positions(mesh.0), session.mesh().positions());
+        assert_eq!(triangles(mesh.0), session.mesh().triangles());
+    }
+}
+
+#[test]
+fn arrays_of_every_type_and_stride_make_the_same_mesh() {
+    let arrays = holed();
+    let expected = mesh_of(&arrays);
+    // Seven bytes between the rows, and everything at an odd address.
+    let spread = |size: usize, rows: Vec<Vec<u8>>| {
+        let mut bytes = vec![0xAA_u8];
+        for row in &rows {
+            assert_eq!(row.len(), size);
+            bytes.extend_from_slice(row);
+            bytes.extend_from_slice(&[0xAA; 7]);
+        }
+        bytes
+    };
+    let doubles = arrays.positions.iter();
+    let doubles = doubles.map(|p| p.iter().flat_map(|c| c.to_ne_bytes()).collect());
+    let doubles = spread(24, doubles.collect());
+    let wide = arrays.triangles.iter();
+    let wide = wide.map(|t| t.iter().flat_map(|&v| u64::from(v).to_ne_bytes()).collect());
+    let wide = spread(24, wide.collect());
+    let narrow = arrays.triangles.iter();
+    let narrow = narrow.map(|t| t.iter().flat_map(|v| v.to_ne_bytes()).collect());
+    let narrow = spread(12, narrow.collect());
+    let view = |bytes: &[u8], count: usize, stride: u64, scalar_type| HolefillInput {
+        data: bytes[1..].as_ptr().cast(),
+        count: count as u64,
+        stride,
+        scalar_type,
+        reserved: 0,
+    };
+    let points = view(&doubles, arrays.positions.len(), 31, HOLEFILL_TYPE_F64);
+    for faces in [
+        view(&wide, arrays.triangles.len(), 31, HOLEFILL_TYPE_U64),
+        view(&narrow, arrays.triangles.len(), 19, HOLEFILL_TYPE_U32),
+    ] {
+        let mut mesh = HolefillMesh::default();
+        // SAFETY: the views describe living memory.
+        let status = unsafe { holefill_mesh_from_arrays(&points, &faces, &mut mesh, nothing()) };
+        assert_eq!(status, HOLEFILL_STATUS_OK);
+        let mesh = Owned(mesh);
+        assert_eq!(digest(mesh.0), digest(expected.0));
+    }
+    // Single precision is widened exactly.
+    let singles: Vec<[f32; 3]> = arrays
+        .positions
+        .iter()
+        .map(|p| p.map(|c| c as f32))
+        .collect();
+    let mut mesh = HolefillMesh::default();
+    // SAFETY: the views describe living memory.
+    let status = unsafe {
+        let points = rows(&singles, HOLEFILL_TYPE_F32);
+        let faces = rows(&arrays.triangles, HOLEFILL_TYPE_U32);
+        holefill_mesh_from_arrays(&points, &faces, &mut mesh, nothing())
+    };
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    let mesh = Owned(mesh);
+    let widened: Vec<[f64; 3]> = singles.iter().map(|p| p.map(f64::from)).collect();
+    assert_eq!(positions(mesh.0), widened);
+}
+
+#[test]
+fn outputs_go_where_they_should_and_nowhere_else() {
+    let arrays = holed();
+    let mesh = mesh_of(&arrays);
+    // Rows of 24 bytes every 29 bytes from an odd address on.
+    let mut bytes = vec![0xAA_u8; 1 + 29 * 5];
+    let output = HolefillOutput {
+        data: bytes[1..].as_mut_ptr().cast(),
+        count: 4,
+        stride: 29,
+        scalar_type: HOLEFILL_TYPE_F64,
+        reserved: 0,
+    };
+    // SAFETY: the output describes living memory.
+    let status = unsafe { holefill_mesh_read_positions(mesh.0, 2, &output, nothing()) };
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    let mut expected = vec![0xAA_u8; 1 + 29 * 5];
+    for (i, p) in arrays.positions[2..6].iter().enumerate() {
+        let row: Vec<u8> = p.iter().flat_map(|c| c.to_ne_bytes()).collect();
+        expected[1 + 29 * i..][..24].copy_from_slice(&row);
+    }
+    assert_eq!(bytes, expected);
+    let mut wide = [[0_u64; 3]; 2];
+    let mut single = [[0_f32; 3]; 2];
+    let (to_wide, to_single) = (
+        place(&mut wide, HOLEFILL_TYPE_U64),
+        place(&mut single, HOLEFILL_TYPE_F32),
+    );
+    // SAFETY: the outputs describe living memory.
+    unsafe {
+        holefill_mesh_read_triangles(mesh.0, 1, &to_wide, nothing());
+        holefill_mesh_read_positions(mesh.0, 1, &to_single, nothing());
+    }
+    assert_eq!(wide[0], arrays.triangles[1].map(u64::from));
+    assert_eq!(single[1], arrays.positions[2].map(|c| c as f32));
+}
+
+#[test]
+fn a_loop_is_the_same_by_id_by_edge_and_by_vertices() {
+    let mut digests = Vec::new();
+    for way in 0..5 {
+        let mesh = holed_mesh();
+        let mut chain = loop_vertices(mesh.0, 1);
+        let (from, to) = (chain[3], chain[4]);
+        chain.rotate_left(5);
+        if way == 3 {
+            chain.reverse();
+        }
+        let view = rows(&chain, HOLEFILL_TYPE_U64);
+        let mut id = u64::MAX;
+        let options = options();
+        // SAFETY: all pointers are null or to living values.
+        let status = unsafe {
+            assert_eq!(
+                holefill_mesh_find_edge(mesh.0, from, to, &mut id, nothing()),
+                HOLEFILL_STATUS_OK
+            );
+            let none = ptr::null_mut();
+            match way {
+                0 => holefill_mesh_fill_loop(mesh.0, 1, &options, none, nothing()),
+                1 => holefill_mesh_fill_edge(mesh.0, from, to, &options, none, nothing()),
+                2 | 3 => holefill_mesh_fill_vertices(mesh.0, &view, &options, none, nothing()),
+                _ => {
+                    let ids = rows(&[1_u32], HOLEFILL_TYPE_U32);
+                    holefill_mesh_fill_loops(mesh.0, &ids, &options, none, nothing())
+                }
+            }
+        };
+        assert_eq!((status, id), (HOLEFILL_STATUS_OK, 1));
+        assert_eq!(loop_info(mesh.0, 1).is_open, 0);
+        assert_eq!(loop_info(mesh.0, 0).is_open, 1);
+        digests.push(digest(mesh.0));
+    }
+    assert!(digests.windows(2).all(|w| w[0] == w[1]));
+}
+
+#[test]
+fn a_chain_through_two_loops_that_touch_finds_both() {
+    let mesh = mesh_of(&fixtures::touching_holes(3));
+    let touching: Vec<u64> = (0..loop_count(mesh.0))
+        .filter(|&id| loop_info(mesh.0, id).loop_class == HOLEFILL_CLASS_TOUCHING)
+        .collect();
+    let [a, b] = touching[..] else {
+        panic!("{touching:?}");
+    };
+    let (mut first, mut second) = (loop_vertices(mesh.0, a), loop_vertices(mesh.0, b));
+    let shared = first.iter().position(|v| second.contains(v)).unwrap();
+    first.rotate_left(shared);
+    let place_in_second = second.iter().position(|v| *v == first[0]).unwrap();
+    second.rotate_left(place_in_second);
+    let eight: Vec<u64> = [first, second].concat();
+    let view = rows(&eight, HOLEFILL_TYPE_U64);
+    let mut ids = [u64::MAX; 2];
+    let mut count = 0;
+    // SAFETY: all pointers are to living values.
+    unsafe {
+        let status =
+            holefill_mesh_find_vertices(mesh.0, &view, ids.as_mut_ptr(), 1, &mut count, nothing());
+        assert_eq!((status, count), (HOLEFILL_STATUS_BUFFER_TOO_SMALL, 2));
+        assert_eq!(ids[0], u64::MAX);
+        let status =
+            holefill_mesh_find_vertices(mesh.0, &view, ids.as_mut_ptr(), 2, &mut count, nothing());
+        assert_eq!(status, HOLEFILL_STATUS_OK);
+    }
+    assert_eq!(ids, [a, b]);
+    // Not all of it is not a loop.
+    let view = rows(&eight[..eight.len() - 1], HOLEFILL_TYPE_U64);
+    let mut error = HolefillError::default();
+    // SAFETY: all pointers are null or to living values.
+    let status = unsafe {
+        holefill_mesh_find_vertices(mesh.0, &view, ptr::null_mut(), 0, &mut count, &mut error)
+    };
+    assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
+    assert!(!message(error).is_empty());
+    holefill_error_free(error);
+}
+
+#[test]
+fn a_plan_is_what_a_fill_would_do_and_changes_nothing() {
+    let planned = holed_mesh();
+    let before = digest(planned.0);
+    let plan = plan_loop(planned.0, 0, &options());
+    assert_eq!(digest(planned.0), before);
+    let (points, faces) = patch(plan, 0);
+    let filled = holed_mesh();
+    fill_loop(filled.0, 0, &options());
+    let count = info(planned.0);
+    assert_eq!(positions(filled.0)[count.vertex_count as usize..], points);
+    assert_eq!(triangles(filled.0)[count.triangle_count as usize..], faces);
+    assert_eq!(apply(plan, planned.0), HOLEFILL_STATUS_OK);
+    assert_eq!(digest(planned.0), digest(filled.0));
+    // A second time the rim is closed.
+    assert_eq!(apply(plan, planned.0), HOLEFILL_STATUS_INCOMPLETE);
+    assert_eq!(digest(planned.0), digest(filled.0));
+    holefill_plan_free(plan);
+}
+
+#[test]
+fn plans_of_several_loops_number_their_patches_one_after_the_other() {
+    let mesh = holed_mesh();
+    let mut plan = HolefillPlan::default();
+    let mut report = HolefillReport::default();
+    let mut infos = [memory::blank::<HolefillPatchInfo>(); 2];
+    // SAFETY: all pointers are null or to living values.
+    unsafe {
+        let status =
+            holefill_mesh_plan_selected(mesh.0, ptr::null(), &options(), &mut plan, nothing());
+        assert_eq!(status, HOLEFILL_STATUS_OK);
+        for id in 0..2 {
+            holefill_plan_patch(plan, id, &mut infos[id as usize], nothing());
+        }
+        holefill_plan_report(plan, &mut report, nothing());
+    }
+    assert_eq!(infos[0].first_vertex, info(mesh.0).vertex_count);
+    assert_eq!(
+        infos[1].first_vertex,
+        infos[0].first_vertex + infos[0].vertex_count
+    );
+    let hole = hole(report, 1);
+    assert_eq!(
+        (hole.status, hole.first_vertex),
+        (HOLEFILL_HOLE_FILLED, infos[1].first_vertex)
+    );
+    holefill_report_free(report);
+    assert_eq!(apply(plan, mesh.0), HOLEFILL_STATUS_OK);
+    holefill_plan_free(plan);
+    let filled = holed_mesh();
+    fill_all(filled.0, &options());
+    assert_eq!(digest(filled.0), digest(mesh.0));
+}
+
+fn hole(report: HolefillReport, index: u64) -> HolefillHole {
+    let mut hole = memory::blank::<HolefillHole>();
+    // SAFETY: the pointer is to a living value.
+    let status = unsafe { holefill_report_hole(report, index, &mut hole, nothing()) };
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    hole
+}
+
+#[test]
+fn undo_brings_back_every_state_in_turn() {
+    let mesh = holed_mesh();
+    let mut states = vec![digest(mesh.0)];
+    for id in [1, 0] {
+        assert_eq!(fill_loop(mesh.0, id, &options()), HOLEFILL_STATUS_OK);
+        states.push(digest(mesh.0));
+    }
+    let filled = states.pop().unwrap();
+    for state in states.iter().rev() {
+        assert_eq!(undo(mesh.0), HOLEFILL_STATUS_OK);
+        assert_eq!(digest(mesh.0), *state);
+    }
+    assert_eq!(undo(mesh.0), HOLEFILL_STATUS_NOTHING_TO_UNDO);
+    for id in [1, 0] {
+        assert_eq!(fill_loop(mesh.0, id, &options()), HOLEFILL_STATUS_OK);
+    }
+    assert_eq!(digest(mesh.0), filled);
+}
+
+#[test]
+fn a_report_says_what_happened_to_each_hole() {
+    let mesh = holed_mesh();
+    let mut report = HolefillReport::default();
+    let mut rules = memory::blank::<HolefillSelection>();
+    rules.keep_largest = 1;
+    let method = with_method(c"fair-c1");
+    // SAFETY: all pointers are null or to living values.
+    let status =
+        unsafe { holefill_mesh_fill_selected(mesh.0, &rules, &method, &mut report, nothing()) };
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    let holes = [hole(report, 0), hole(report, 1)];
+    let (kept, filled) = match holes[0].status {
+        HOLEFILL_HOLE_KEPT => (holes[0], holes[1]),
+        _ => (holes[1], holes[0]),
+    };
+    assert_eq!(kept.status, HOLEFILL_HOLE_KEPT);
+    assert!(kept.perimeter >= filled.perimeter && kept.method.is_null());
+    assert_eq!(filled.status, HOLEFILL_HOLE_FILLED);
+    assert_eq!(static_text(filled.method), Some("fair-c1"));
+    let size = info(mesh.0);
+    assert_eq!(filled.first_vertex, size.input_vertex_count);
+    assert_eq!(filled.first_vertex + filled.vertex_count, size.vertex_count);
+    assert_eq!(
+        filled.first_triangle + filled.triangle_count,
+        size.triangle_count
+    );
+    let mut summary = memory::blank::<HolefillSummary>();
+    // SAFETY: the pointer is to a living value.
+    unsafe { holefill_report_summary(report, &mut summary, nothing()) };
+    assert_eq!(
+        (summary.hole_count, summary.filled, summary.kept),
+        (2, 1, 1)
+    );
+    assert_eq!(summary.new_triangles, filled.triangle_count);
+    // SAFETY: `text` gives room as it says.
+    let reason = text(&|buffer, capacity, length| unsafe {
+        holefill_report_reason(report, kept.loop_id, buffer, capacity, length, nothing())
+    });
+    assert!(reason.contains("largest"), "{reason}");
+    holefill_report_free(report);
+}
+
+#[test]
+fn methods_that_were_tried_are_listed_with_reasons() {
+    let mesh = holed_mesh();
+    let mut parameters = HolefillParameters::default();
+    let mut report = HolefillReport::default();
+    // SAFETY: all pointers are null or to living values.
+    unsafe {
+        holefill_parameters_new(&mut parameters, nothing());
+        let (name, value) = (c"refine.max-vertices", c"0");
+        holefill_parameters_set(parameters, name.as_ptr(), value.as_ptr(), nothing());
+        let options = HolefillFillOptions {
+            parameters,
+            ..with_method(c"fair-c1")
+        };
+        let status = holefill_mesh_fill_loop(mesh.0, 0, &options, &mut report, nothing());
+        assert_eq!(status, HOLEFILL_STATUS_OK);
+    }
+    let hole = hole(report, 0);
+    assert_eq!(static_text(hole.method), Some("flat"));
+    assert!(hole.tried_count >= 1);
+    let mut method: *const c_char = ptr::null();
+    // SAFETY: `text` gives room as it says, and `method` lives.
+    let reason = text(&|buffer, capacity, length| unsafe {
+        let place = (&raw const method).cast_mut();
+        holefill_report_tried(report, 0, 0, place, buffer, capacity, length, nothing())
+    });
+    assert_eq!(static_text(method), Some("fair-c1"));
+    assert!(!reason.is_empty());
+    method = ptr::null();
+    assert!(method.is_null());
+    holefill_report_free(report);
+    holefill_parameters_free(parameters);
+}
+
+#[test]
+fn every_method_and_every_parameter_can_be_reached_by_name() {
+    let names: Vec<&str> = (0..holefill_method_count())
+        .map(|i| static_text(holefill_method_name(i)).unwrap())
+        .collect();
+    let expected: Vec<&str> = crate::Method::ALL.iter().map(|m| m.name()).collect();
+    assert_eq!(names, expected);
+    assert!(
+        (0..holefill_method_count()).all(|i| static_text(holefill_method_summary(i)).is_some())
+    );
+    assert!(holefill_method_name(u64::MAX).is_null());
+    assert!(holefill_parameter_name(holefill_parameter_count()).is_null());
+    let mut parameters = HolefillParameters::default();
+    // SAFETY: all pointers are null or to living values.
+    unsafe { holefill_parameters_new(&mut parameters, nothing()) };
+    let mut refused = 0;
+    for i in 0..holefill_parameter_count() {
+        let (name, default) = (holefill_parameter_name(i), holefill_parameter_default(i));
+        assert!(static_text(holefill_parameter_help(i)).is_some());
+        assert!(static_text(holefill_parameter_allowed(i)).is_some());
+        // SAFETY: the texts are static; `text` gives room as it says.
+        let value = text(&|buffer, capacity, length| unsafe {
+            holefill_parameters_get(parameters, name, buffer, capacity, length, nothing())
+        });
+        assert_eq!(Some(&value[..]), static_text(default));
+        // SAFETY: the texts are static.
+        let status = unsafe { holefill_parameters_set(parameters, name, default, nothing()) };
+        assert_eq!(status, HOLEFILL_STATUS_OK);
+        let mut error = HolefillError::default();
+        // SAFETY: the texts are static.
+        let status =
+            unsafe { holefill_parameters_set(parameters, name, c"?".as_ptr(), &mut error) };
+        // Some parameters take any text.
+        if status != HOLEFILL_STATUS_OK {
+            assert_eq!(status, HOLEFILL_STATUS_INVALID_ARGUMENT);
+            assert!(message(error).contains(static_text(name).unwrap()));
+            refused += 1;
+        }
+        holefill_error_free(error);
+    }
+    assert!(refused > 5);
+    let mut error = HolefillError::default();
+    // SAFETY: the texts are static.
+    let status =
+        unsafe { holefill_parameters_set(parameters, c"no".as_ptr(), c"1".as_ptr(), &mut error) };
+    assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
+    assert!(message(error).contains("refine.density"));
+    holefill_error_free(error);
+    holefill_parameters_free(parameters);
+}
+
+#[test]
+fn fields_of_the_options_and_parameters_do_the_same() {
+    let with_field = holed_mesh();
+    let coarse = HolefillFillOptions {
+        density: 2.0,
+        ..options()
+    };
+    fill_loop(with_field.0, 0, &coarse);
+    let with_name = holed_mesh();
+    let mut parameters = HolefillParameters::default();
+    // SAFETY: all pointers are null or to living values.
+    unsafe {
+        holefill_parameters_new(&mut parameters, nothing());
+        let (name, value) = (c"refine.density".as_ptr(), c"2".as_ptr());
+        holefill_parameters_set(parameters, name, value, nothing());
+    }
+    let named = HolefillFillOptions {
+        parameters,
+        ..options()
+    };
+    fill_loop(with_name.0, 0, &named);
+    holefill_parameters_free(parameters);
+    assert_eq!(digest(with_field.0), digest(with_name.0));
+    let plain = holed_mesh();
+    fill_loop(plain.0, 0, &options());
+    assert_ne!(digest(plain.0), digest(with_name.0));
+}
+
+#[test]
+fn attributes_go_in_come_out_and_are_continued() {
+    let arrays = holed();
+    let mesh = mesh_of(&arrays);
+    let (vertices, faces) = (arrays.positions.len(), arrays.triangles.len());
+    let heights: Vec<f32> = arrays.positions.iter().map(|p| p[2] as f32).collect();
+    let colors: Vec<[u8; 3]> = (0..vertices).map(|i| [(i % 256) as u8, 10, 200]).collect();
+    let labels: Vec<i16> = vec![-7; faces];
+    // SAFETY: all pointers are null or to living values.
+    unsafe {
+        for (element, name, components, values) in [
+            (
+                HOLEFILL_ELEMENT_VERTEX,
+                c"height",
+                1,
+                rows(&heights, HOLEFILL_TYPE_F32),
+            ),
+            (
+                HOLEFILL_ELEMENT_VERTEX,
+                c"color",
+                3,
+                rows(&colors, HOLEFILL_TYPE_U8),
+            ),
+            (
+                HOLEFILL_ELEMENT_VERTEX,
+                c"place",
+                3,
+                rows(&arrays.positions, HOLEFILL_TYPE_F64),
+            ),
+            (
+                HOLEFILL_ELEMENT_TRIANGLE,
+                c"label",
+                1,
+                rows(&labels, HOLEFILL_TYPE_I16),
+            ),
+        ] {
+            let name = name.as_ptr();
+            let add = || {
+                holefill_mesh_add_attribute(mesh.0, element, name, components, &values, nothing())
+            };
+            assert_eq!(add(), HOLEFILL_STATUS_OK);
+            assert_eq!(add(), HOLEFILL_STATUS_INVALID_ARGUMENT);
+        }
+    }
+    let before = digest(mesh.0);
+    assert_eq!(fill_loop(mesh.0, 0, &options()), HOLEFILL_STATUS_OK);
+    let size = info(mesh.0);
+    let mut new_labels = vec![0_i16; size.triangle_count as usize];
+    let mut new_colors = vec![[0_u8; 3]; size.vertex_count as usize];
+    let mut as_numbers = vec![[0_f64; 3]; size.vertex_count as usize];
+    let mut places = vec![[0_f64; 3]; size.vertex_count as usize];
+    // SAFETY: the outputs describe living memory.
+    unsafe {
+        let read = |element, index, output: &HolefillOutput| {
+            holefill_mesh_read_attribute(mesh.0, element, index, 0, output, nothing())
+        };
+        let labels = place(&mut new_labels, HOLEFILL_TYPE_I16);
+        assert_eq!(
+            read(HOLEFILL_ELEMENT_TRIANGLE, 0, &labels),
+            HOLEFILL_STATUS_OK
+        );
+        let colors = place(&mut new_colors, HOLEFILL_TYPE_U8);
+        assert_eq!(
+            read(HOLEFILL_ELEMENT_VERTEX, 1, &colors),
+            HOLEFILL_STATUS_OK
+        );
+        let numbers = place(&mut as_numbers, HOLEFILL_TYPE_F64);
+        assert_eq!(
+            read(HOLEFILL_ELEMENT_VERTEX, 1, &numbers),
+            HOLEFILL_STATUS_OK
+        );
+        let values = place(&mut places, HOLEFILL_TYPE_F64);
+        assert_eq!(
+            read(HOLEFILL_ELEMENT_VERTEX, 2, &values),
+            HOLEFILL_STATUS_OK
+        );
+        let wrong = place(&mut new_colors, HOLEFILL_TYPE_I8);
+        assert_eq!(
+            read(HOLEFILL_ELEMENT_VERTEX, 1, &wrong),
+            HOLEFILL_STATUS_INVALID_ARGUMENT
+        );
+    }
+    assert!(new_labels.iter().all(|&l| l == -7));
+    assert!(
+        new_colors[vertices..]
+            .iter()
+            .all(|c| c[1] == 10 && c[2] == 200)
+    );
+    assert_eq!(as_numbers[vertices], new_colors[vertices].map(f64::from));
+    assert_eq!(places[..vertices], arrays.positions);
+    assert!(
+        places[vertices..]
+            .iter()
+            .flatten()
+            .all(|c| c.abs() <= 1.0 + 1e-9)
+    );
+    // SAFETY: `text` gives room as it says.
+    let name = text(&|buffer, capacity, length| unsafe {
+        let element = HOLEFILL_ELEMENT_VERTEX;
+        holefill_mesh_attribute_name(mesh.0, element, 1, buffer, capacity, length, nothing())
+    });
+    assert_eq!(name, "color");
+    assert_eq!(undo(mesh.0), HOLEFILL_STATUS_OK);
+    assert_eq!(digest(mesh.0), before);
+}
+
+#[test]
+fn the_log_speaks_only_when_it_is_asked_and_only_as_loud() {
+    unsafe extern "C" fn log(level: HolefillLogLevel, message: *const c_char, data: *mut c_void) {
+        // SAFETY: the test hands its list over.
+        let lines = unsafe { &mut *data.cast::<Vec<(HolefillLogLevel, String)>>() };
+        // SAFETY: the library's text ends with a zero byte.
+        let text = unsafe { CStr::from_ptr(message) };
+        lines.push((level, text.to_str().unwrap().to_owned()));
+    }
+    for (limit, expected) in [(HOLEFILL_LOG_WARNING, 0), (HOLEFILL_LOG_INFO, 2), (0, 2)] {
+        let mesh = holed_mesh();
+        let mut lines: Vec<(HolefillLogLevel, String)> = Vec::new();
+        let options = HolefillFillOptions {
+            log: Some(log),
+            log_data: (&raw mut lines).cast(),
+            log_level: limit,
+            ..with_method(c"fair-c1")
+        };
+        fill_all(mesh.0, &options);
+        assert_eq!(lines.len(), expected, "{lines:?}");
+        assert!(lines.iter().all(|(level, _)| *level == HOLEFILL_LOG_INFO));
+    }
+}
+
+#[test]
+fn irregularities_are_counted() {
+    let mesh = mesh_of(&fixtures::sheet_with_hole().with_vertex([9.0, 9.0, 9.0]));
+    let mut defects = memory::blank::<HolefillDefects>();
+    // SAFETY: the pointer is to a living value.
+    let status = unsafe { holefill_mesh_defects(mesh.0, &mut defects, nothing()) };
+    assert_eq!((status, defects.isolated_vertices), (HOLEFILL_STATUS_OK, 1));
+}
+
+#[test]
+fn versions_and_statuses_have_texts() {
+    assert_eq!(holefill_abi_version(), HOLEFILL_ABI_VERSION);
+    assert_eq!(
+        static_text(holefill_version()),
+        Some(env!("CARGO_PKG_VERSION"))
+    );
+    for (k, &(status, ..)) in status::STATUSES.iter().enumerate() {
+        assert_eq!(status, k as i32, "numbers are given one after the other");
+        assert!(
+            !static_text(holefill_status_name(status))
+                .unwrap()
+                .is_empty()
+        );
+        assert!(
+            !static_text(holefill_status_message(status))
+                .unwrap()
+                .is_empty()
+        );
+    }
+    assert_eq!(static_text(holefill_status_name(-1)), Some("UNKNOWN"));
+}

@@ -1,0 +1,106 @@
+//! What the way through C costs over the same work in Rust.
+
+use super::*;
+use crate::fill::options::FillOptions;
+use crate::fill::session::{FillSession, Target};
+use crate::mesh::trimesh::TriMesh;
+use std::time::Instant;
+
+/// Squares along one side of the sheet: two triangles each make four million.
+const SIDE: usize = 1415;
+const TURNS: usize = 15;
+
+/// A sheet with a hole of 52 edges in its middle, and its outer rim.
+fn large() -> Arrays {
+    let middle = SIDE / 2;
+    let is_hole = |i: usize, j: usize| i.abs_diff(middle) <= 6 && j.abs_diff(middle) <= 6;
+    fixtures::sheet_without(SIDE, is_hole)
+}
+
+fn median(mut seconds: Vec<f64>) -> f64 {
+    seconds.sort_by(f64::total_cmp);
+    seconds[seconds.len() / 2]
+}
+
+fn timed<R>(seconds: &mut Vec<f64>, work: impl FnOnce() -> R) -> R {
+    let start = Instant::now();
+    let result = work();
+    seconds.push(start.elapsed().as_secs_f64());
+    result
+}
+
+/// Prints what it measures. The two ways take turns, so that other programs slow both down alike.
+#[test]
+#[ignore = "measures times: run it alone, with --nocapture"]
+fn the_way_through_c_costs_little() {
+    let arrays = large();
+    let (vertices, faces) = (arrays.positions.len(), arrays.triangles.len());
+    let (mut from_arrays, mut new) = (Vec::new(), Vec::new());
+    for _ in 0..5 {
+        let mesh = timed(&mut from_arrays, || mesh_of(&arrays));
+        drop(mesh);
+        let (positions, triangles) = (arrays.positions.clone(), arrays.triangles.clone());
+        let mesh = timed(&mut new, || TriMesh::new(positions, triangles));
+        drop(mesh);
+    }
+    println!(
+        "{faces} triangles: handle {:.3} s, Rust build {:.3} s, ratio {:.3}",
+        median(from_arrays.clone()),
+        median(new.clone()),
+        median(from_arrays) / median(new)
+    );
+    let mesh = mesh_of(&arrays);
+    let mut session =
+        FillSession::new(TriMesh::new(arrays.positions.clone(), arrays.triangles).unwrap());
+    let hole = (0..loop_count(mesh.0))
+        .find(|&id| loop_info(mesh.0, id).edge_count < 100)
+        .unwrap();
+    println!("hole of {} edges", loop_info(mesh.0, hole).edge_count);
+    let mut prepare = Vec::new();
+    // SAFETY: no pointer but null.
+    timed(&mut prepare, || unsafe {
+        holefill_mesh_prepare(mesh.0, nothing())
+    });
+    session.prepare();
+    println!("loops and index: {:.3} s", prepare[0]);
+    let (c_options, rust_options) = (
+        options(),
+        FillOptions {
+            threads: 1,
+            ..FillOptions::default()
+        },
+    );
+    let (mut in_c, mut in_rust, mut patch_only) = (Vec::new(), Vec::new(), Vec::new());
+    for turn in 0..TURNS {
+        let status = timed(&mut in_c, || fill_loop(mesh.0, hole, &c_options));
+        assert_eq!(status, HOLEFILL_STATUS_OK);
+        let ids = [hole as usize];
+        let report = timed(&mut in_rust, || {
+            session.fill(Target::Loops(&ids), &rust_options, None)
+        });
+        assert!(report.is_ok());
+        if turn + 1 == TURNS {
+            assert_eq!(
+                info(mesh.0).vertex_count as usize,
+                session.mesh().positions().len()
+            );
+            assert!(info(mesh.0).vertex_count as usize > vertices);
+        }
+        undo(mesh.0);
+        session.undo();
+        timed(&mut patch_only, || {
+            let plan = plan_loop(mesh.0, hole, &c_options);
+            let (points, faces) = patch(plan, hole);
+            holefill_plan_free(plan);
+            points.len() + faces.len()
+        });
+    }
+    let (c, rust) = (median(in_c), median(in_rust));
+    println!(
+        "fill in C {:.3} ms, in Rust {:.3} ms, ratio {:.3}; plan and read the patch {:.3} ms",
+        1e3 * c,
+        1e3 * rust,
+        c / rust,
+        1e3 * median(patch_only)
+    );
+}

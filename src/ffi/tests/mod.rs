@@ -1,0 +1,264 @@
+//! The C interface as C sees it: every function, every status, every kind of misuse.
+
+mod calls;
+mod cancel;
+mod cost;
+mod misuse;
+mod nulls;
+mod sessions;
+mod threads;
+
+use super::*;
+use crate::fixtures::{self, Arrays};
+use std::ffi::{CStr, c_char, c_void};
+use std::ptr;
+
+/// A mesh of C, freed at the end.
+struct Owned(HolefillMesh);
+
+impl Drop for Owned {
+    fn drop(&mut self) {
+        holefill_mesh_free(self.0);
+    }
+}
+
+fn rows<T>(rows: &[T], scalar_type: HolefillType) -> HolefillInput {
+    HolefillInput {
+        data: rows.as_ptr().cast(),
+        count: rows.len() as u64,
+        stride: 0,
+        scalar_type,
+        reserved: 0,
+    }
+}
+
+fn place<T>(rows: &mut [T], scalar_type: HolefillType) -> HolefillOutput {
+    HolefillOutput {
+        data: rows.as_mut_ptr().cast(),
+        count: rows.len() as u64,
+        stride: 0,
+        scalar_type,
+        reserved: 0,
+    }
+}
+
+fn nothing() -> *mut HolefillError {
+    ptr::null_mut()
+}
+
+fn mesh_of(arrays: &Arrays) -> Owned {
+    let mut mesh = HolefillMesh::default();
+    let positions = rows(&arrays.positions, HOLEFILL_TYPE_F64);
+    let triangles = rows(&arrays.triangles, HOLEFILL_TYPE_U32);
+    // SAFETY: all pointers are to living values of the right types.
+    let status = unsafe { holefill_mesh_from_arrays(&positions, &triangles, &mut mesh, nothing()) };
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    Owned(mesh)
+}
+
+/// A sphere with two holes of some 20 and 30 edges.
+fn holed() -> Arrays {
+    fixtures::sphere(14).cut(|c| c[2] > 0.75 || c[2] < -0.8)
+}
+
+fn holed_mesh() -> Owned {
+    mesh_of(&holed())
+}
+
+fn info(mesh: HolefillMesh) -> HolefillMeshInfo {
+    let mut info = memory::blank::<HolefillMeshInfo>();
+    // SAFETY: the pointer is to a living value.
+    let status = unsafe { holefill_mesh_info(mesh, &mut info, nothing()) };
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    info
+}
+
+fn positions(mesh: HolefillMesh) -> Vec<[f64; 3]> {
+    let mut values = vec![[0.0; 3]; info(mesh).vertex_count as usize];
+    let output = place(&mut values, HOLEFILL_TYPE_F64);
+    // SAFETY: the output describes living memory.
+    let status = unsafe { holefill_mesh_read_positions(mesh, 0, &output, nothing()) };
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    values
+}
+
+fn triangles(mesh: HolefillMesh) -> Vec<[u32; 3]> {
+    let mut values = vec![[0; 3]; info(mesh).triangle_count as usize];
+    let output = place(&mut values, HOLEFILL_TYPE_U32);
+    // SAFETY: the output describes living memory.
+    let status = unsafe { holefill_mesh_read_triangles(mesh, 0, &output, nothing()) };
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    values
+}
+
+fn loop_count(mesh: HolefillMesh) -> u64 {
+    let mut count = 0;
+    // SAFETY: the pointer is to a living value.
+    let status = unsafe { holefill_mesh_loop_count(mesh, &mut count, nothing()) };
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    count
+}
+
+fn loop_info(mesh: HolefillMesh, id: u64) -> HolefillLoopInfo {
+    let mut info = memory::blank::<HolefillLoopInfo>();
+    // SAFETY: the pointer is to a living value.
+    let status = unsafe { holefill_mesh_loop_info(mesh, id, &mut info, nothing()) };
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    info
+}
+
+fn loop_vertices(mesh: HolefillMesh, id: u64) -> Vec<u64> {
+    let mut values = vec![0_u64; loop_info(mesh, id).vertex_count as usize];
+    let output = place(&mut values, HOLEFILL_TYPE_U64);
+    // SAFETY: the output describes living memory.
+    let status = unsafe { holefill_mesh_read_loop(mesh, id, 0, &output, nothing()) };
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    values
+}
+
+/// A number for everything that a mesh holds: FNV-1a over what can be read.
+fn digest(mesh: HolefillMesh) -> u64 {
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    let mut add = |bytes: &[u8]| {
+        for &byte in bytes {
+            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    };
+    add(bytemuck::cast_slice(&positions(mesh)));
+    add(bytemuck::cast_slice(&triangles(mesh)));
+    add(&info(mesh).undo_count.to_le_bytes());
+    for id in 0..loop_count(mesh) {
+        add(&loop_info(mesh, id).is_open.to_le_bytes());
+    }
+    for element in [HOLEFILL_ELEMENT_VERTEX, HOLEFILL_ELEMENT_TRIANGLE] {
+        let mut count = 0;
+        // SAFETY: the pointer is to a living value.
+        unsafe { holefill_mesh_attribute_count(mesh, element, &mut count, nothing()) };
+        for index in 0..count {
+            let mut info = memory::blank::<HolefillAttributeInfo>();
+            // SAFETY: the pointer is to a living value.
+            unsafe { holefill_mesh_attribute_info(mesh, element, index, &mut info, nothing()) };
+            let mut values = vec![0.0_f64; (info.count * u64::from(info.components)) as usize];
+            let mut output = place(&mut values, HOLEFILL_TYPE_F64);
+            output.count = info.count;
+            // SAFETY: the output describes living memory.
+            let status = unsafe {
+                holefill_mesh_read_attribute(mesh, element, index, 0, &output, nothing())
+            };
+            assert_eq!(status, HOLEFILL_STATUS_OK);
+            add(bytemuck::cast_slice(&values));
+        }
+    }
+    hash
+}
+
+/// What a function writes that hands out a text.
+type Writer<'a> = &'a dyn Fn(*mut c_char, u64, *mut u64) -> HolefillStatus;
+
+/// Reads a text by two calls, and checks what happens when it does not fit.
+fn text(write: Writer<'_>) -> String {
+    let mut length = u64::MAX;
+    assert_eq!(write(ptr::null_mut(), 0, &mut length), HOLEFILL_STATUS_OK);
+    let size = length as usize;
+    let mut buffer = vec![0x55_u8; size + 2];
+    if size > 0 {
+        let status = write(buffer.as_mut_ptr().cast(), size as u64, &mut length);
+        assert_eq!(status, HOLEFILL_STATUS_BUFFER_TOO_SMALL);
+        assert!(buffer.iter().all(|&b| b == 0x55), "nothing is written");
+    }
+    let status = write(buffer.as_mut_ptr().cast(), size as u64 + 1, &mut length);
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    assert_eq!(
+        (length as usize, buffer[size], buffer[size + 1]),
+        (size, 0, 0x55)
+    );
+    String::from_utf8(buffer[..size].to_vec()).unwrap()
+}
+
+fn static_text(text: *const c_char) -> Option<&'static str> {
+    if text.is_null() {
+        return None;
+    }
+    // SAFETY: the library's static texts end with a zero byte.
+    unsafe { CStr::from_ptr(text) }.to_str().ok()
+}
+
+fn message(error: HolefillError) -> String {
+    // SAFETY: `text` gives room as it says.
+    text(&|buffer, capacity, length| unsafe {
+        holefill_error_message(error, buffer, capacity, length)
+    })
+}
+
+fn options() -> HolefillFillOptions {
+    let mut options = memory::blank::<HolefillFillOptions>();
+    options.threads = 1;
+    options
+}
+
+fn with_method(method: &'static CStr) -> HolefillFillOptions {
+    HolefillFillOptions {
+        method: method.as_ptr(),
+        ..options()
+    }
+}
+
+fn fill_loop(mesh: HolefillMesh, id: u64, options: &HolefillFillOptions) -> HolefillStatus {
+    // SAFETY: all pointers are null or to living values.
+    unsafe { holefill_mesh_fill_loop(mesh, id, options, ptr::null_mut(), nothing()) }
+}
+
+fn fill_all(mesh: HolefillMesh, options: &HolefillFillOptions) -> HolefillStatus {
+    // SAFETY: all pointers are null or to living values.
+    unsafe { holefill_mesh_fill_selected(mesh, ptr::null(), options, ptr::null_mut(), nothing()) }
+}
+
+fn undo(mesh: HolefillMesh) -> HolefillStatus {
+    // SAFETY: no pointer but null.
+    unsafe { holefill_mesh_undo(mesh, nothing()) }
+}
+
+fn plan_loop(mesh: HolefillMesh, id: u64, options: &HolefillFillOptions) -> HolefillPlan {
+    let mut plan = HolefillPlan::default();
+    // SAFETY: all pointers are null or to living values.
+    let status = unsafe { holefill_mesh_plan_loop(mesh, id, options, &mut plan, nothing()) };
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    plan
+}
+
+fn apply(plan: HolefillPlan, mesh: HolefillMesh) -> HolefillStatus {
+    // SAFETY: no pointer but null.
+    unsafe { holefill_plan_apply(plan, mesh, ptr::null(), ptr::null_mut(), nothing()) }
+}
+
+/// New vertices and triangles of the patch for a loop.
+fn patch(plan: HolefillPlan, id: u64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+    let mut info = memory::blank::<HolefillPatchInfo>();
+    // SAFETY: the pointer is to a living value.
+    let status = unsafe { holefill_plan_patch(plan, id, &mut info, nothing()) };
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    let mut points = vec![[0.0; 3]; info.vertex_count as usize];
+    let mut faces = vec![[0; 3]; info.triangle_count as usize];
+    let (to_points, to_faces) = (
+        place(&mut points, HOLEFILL_TYPE_F64),
+        place(&mut faces, HOLEFILL_TYPE_U32),
+    );
+    // SAFETY: the outputs describe living memory.
+    unsafe {
+        let status = holefill_plan_read_positions(plan, id, 0, &to_points, nothing());
+        assert_eq!(status, HOLEFILL_STATUS_OK);
+        let status = holefill_plan_read_triangles(plan, id, 0, &to_faces, nothing());
+        assert_eq!(status, HOLEFILL_STATUS_OK);
+    }
+    (points, faces)
+}
+
+/// A callback that stops at its `n`-th call; `user_data` is the number of calls that are left.
+unsafe extern "C" fn stop_at(_: *const HolefillProgress, user_data: *mut c_void) -> i32 {
+    let left: *mut i64 = user_data.cast();
+    // SAFETY: the tests hand a number over; calls come one at a time.
+    unsafe {
+        *left -= 1;
+        i32::from(*left < 0)
+    }
+}

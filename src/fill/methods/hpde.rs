@@ -1,0 +1,27 @@
+//! HPDE as a method of the pipeline.
+
+use crate::error::Result;
+use crate::fill::options::FillOptions;
+use crate::patch::{HoleShape, PatchSurface};
+use crate::predict::hpde;
+
+/// Rings of known triangles that the method reads.
+pub(super) const RING_COUNT: u32 = hpde::RING_COUNT;
+
+/// The patch in the hole's coordinates.
+///
+/// # Errors
+/// Those of [`hpde::predict`].
+pub(super) fn patch(
+    hole: &HoleShape,
+    options: &FillOptions,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<PatchSurface> {
+    hpde::predict(
+        hole,
+        &options.hpde,
+        options.seed,
+        options.max_new_vertices,
+        interrupted,
+    )
+}

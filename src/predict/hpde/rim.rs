@@ -1,0 +1,130 @@
+//! The rim as the steps of HPDE read it.
+
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::{Vec3, unit};
+use crate::patch::HoleShape;
+
+/// A closed polygon in the patch's orientation, with the known surface along it.
+#[derive(Clone, Debug)]
+pub(super) struct Rim {
+    pub(super) points: Vec<Vec3>,
+    /// Unit normal of the known triangle at each edge.
+    pub(super) edge_normals: Vec<Vec3>,
+    /// Unit normal of the known surface at each vertex; without them, those of the edges are used.
+    pub(super) vertex_normals: Option<Vec<Vec3>>,
+    /// Mean edge length of the known triangles that touch the rim, `EdgeLen`.
+    pub(super) edge_length: f64,
+    /// Distance along the rim of each vertex, and the perimeter.
+    pub(super) arcs: Vec<f64>,
+}
+
+impl Rim {
+    pub(super) fn new(
+        points: Vec<Vec3>,
+        edge_normals: Vec<Vec3>,
+        vertex_normals: Option<Vec<Vec3>>,
+        edge_length: f64,
+    ) -> Self {
+        let mut arcs = Vec::with_capacity(points.len() + 1);
+        arcs.push(0.0);
+        for (i, p) in points.iter().enumerate() {
+            arcs.push(arcs[i] + (points[(i + 1) % points.len()] - p).norm());
+        }
+        Self {
+            points,
+            edge_normals,
+            vertex_normals,
+            edge_length,
+            arcs,
+        }
+    }
+
+    /// The number of vertices.
+    pub(super) fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Whether the rim has a vertex after one distance along it and before another.
+    pub(super) fn has_vertex_between(&self, from: f64, to: f64) -> bool {
+        let arcs = &self.arcs[..self.len()];
+        let next = arcs.partition_point(|a| *a <= from);
+        let before = arcs.partition_point(|a| *a < to);
+        if from < to {
+            next < before
+        } else {
+            next < arcs.len() || before > 0
+        }
+    }
+
+    pub(super) fn perimeter(&self) -> f64 {
+        self.arcs[self.points.len()]
+    }
+}
+
+/// Refuses holes with islands and rims that pass a vertex twice: sections need one simple curve.
+///
+/// # Errors
+/// [`ErrorKind::Topology`].
+pub(super) fn check_simple(hole: &HoleShape) -> Result<()> {
+    let mut seen = vec![false; hole.points.len()];
+    let is_simple = hole.polygon.len() == hole.points.len()
+        && hole
+            .polygon
+            .iter()
+            .all(|&v| !std::mem::replace(&mut seen[v as usize], true));
+    if is_simple {
+        return Ok(());
+    }
+    Err(Error::new(
+        ErrorKind::Topology,
+        "the hole has an island or a vertex that its rim passes twice, which HPDE cannot section",
+    ))
+}
+
+/// The normals of the known triangles along the rim; where one has no area, that of the nearest one before it.
+///
+/// # Errors
+/// [`ErrorKind::Geometry`] if none has an area.
+pub(super) fn edge_normals(hole: &HoleShape) -> Result<Vec<Vec3>> {
+    let m = hole.polygon.len();
+    let Some(first) = hole.outside_normals.iter().position(Option::is_some) else {
+        return Err(Error::new(
+            ErrorKind::Geometry,
+            "no triangle along the rim has an area",
+        ));
+    };
+    let mut normals = vec![Vec3::zeros(); m];
+    let mut last = Vec3::zeros();
+    for k in 0..m {
+        let i = (first + k) % m;
+        last = hole.outside_normals[i].unwrap_or(last);
+        normals[i] = unit(last);
+    }
+    Ok(normals)
+}
+
+/// Mean edge length of the known triangles that touch the rim, each triangle's edges counted, but at most the mean
+/// length of the rim's edges, which is the unit: on a horn triangles can be long away from the rim, and the patch
+/// has to meet the rim.
+pub(super) fn mean_edge_length(hole: &HoleShape) -> f64 {
+    let rim_count = hole.points.len();
+    let point = |v: u32| match (v as usize).checked_sub(rim_count) {
+        Some(outer) => hole.surroundings.points[outer],
+        None => hole.points[v as usize],
+    };
+    let (mut sum, mut count) = (0.0, 0.0);
+    for t in &hole.surroundings.triangles {
+        if t.iter().all(|&v| v as usize >= rim_count) {
+            continue;
+        }
+        for k in 0..3 {
+            sum += (point(t[k]) - point(t[(k + 1) % 3])).norm();
+            count += 1.0;
+        }
+    }
+    if sum > 0.0 {
+        (sum / count).min(1.0)
+    } else {
+        1.0
+    }
+}

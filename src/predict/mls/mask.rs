@@ -34,11 +34,7 @@ pub(crate) fn resampling_positions(
             proceed_every(i, interrupted)?;
             let b = of_loop[(i + 1) % of_loop.len()];
             let edge = [a, b].map(|p| p.map(|x| x / step));
-            if edge
-                .iter()
-                .flatten()
-                .any(|x| x.is_nan() || x.abs() >= MOST_LINES)
-            {
+            if !edge.iter().flatten().all(|x| x.abs() < MOST_LINES) {
                 return Err(too_many());
             }
             add_crossings(edge, &mut crossings);

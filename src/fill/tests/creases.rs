@@ -91,12 +91,10 @@ fn the_answer_turns_with_the_model() {
 }
 
 #[test]
-fn valleys_ridges_and_tips_of_pyramids_come_back() {
-    let shapes: [(Height, usize); 3] = [
-        // A valley; a ridge; four planes that meet in one point.
+fn valleys_and_ridges_come_back() {
+    let shapes: [(Height, usize); 2] = [
         (|x, _| (x - 12.0).abs(), 1),
         (|x, _| -2.0 * (x - 12.0).abs(), 1),
-        (|x, y| -(x - 12.0).abs() - (y - 12.0).abs(), 4),
     ];
     for (i, (height, count)) in shapes.into_iter().enumerate() {
         let whole = sheet(24, height);

@@ -81,6 +81,20 @@ RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps
 say "release build"
 cargo build --locked --release --workspace
 
+say "C and C++: package, tests, examples"
+tools=()
+for tool in cmake:cmake c++:g++ pkg-config:pkg-config valgrind:valgrind make:make; do
+    command -v "${tool%%:*}" >/dev/null || tools+=("${tool##*:}")
+done
+if [ ${#tools[@]} = 0 ] || apt_install "${tools[@]}"; then
+    cmake -S . -B target/cpp -DCMAKE_BUILD_TYPE=Release -DHOLEFILL_BUILD_PROGRAM=OFF \
+        -DHOLEFILL_CARGO_TARGET_DIR="$PWD/target"
+    cmake --build target/cpp --parallel "$(nproc)"
+    ctest --test-dir target/cpp --output-on-failure 2>&1 | tee "$scratch/ctest"
+else
+    skip "the tests in C and C++: ${tools[*]} missing"
+fi
+
 say "demo"
 demo="$scratch/demo"
 holefill demo "$demo"
@@ -94,18 +108,19 @@ holefill inspect "$demo/filled.ply" --json | tr -d ' \n' | grep -q '"loops":\[\]
     fail "the demo left a hole open"
 
 say "the same bytes for any number of threads, and again"
-for method in flat membrane fair-c1 fair-c2 hpde; do
+for method in auto curvature flat membrane fair-c1 fair-c2 hpde unfold-area unfold-fairing mls; do
     for threads in 1 2 1 2; do
         holefill fill "$demo/damaged.ply" -o "$scratch/out.ply" --method "$method" --threads "$threads" --quiet
         sha256sum <"$scratch/out.ply" | cut -d" " -f1
     done >"$scratch/sums"
-    printf '%-9s %s\n' "$method" "$(sort -u "$scratch/sums" | tr '\n' ' ')"
+    printf '%-14s %s\n' "$method" "$(sort -u "$scratch/sums" | tr '\n' ' ')"
     [ "$(sort -u "$scratch/sums" | wc -l)" = 1 ] || fail "$method gives different files"
 done
 
 say "summary"
 grep -E '^ *(Running|Doc-tests) |^test result' "$scratch/tests"
 grep -E 'SKIPPED|^CASES' "$scratch/tests" | sort -u || true
+[ ! -e "$scratch/ctest" ] || grep 'tests passed' "$scratch/ctest"
 for reason in ${skipped[@]+"${skipped[@]}"}; do
     printf '!!! SKIPPED: %s\n' "$reason"
 done

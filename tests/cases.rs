@@ -14,15 +14,6 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-const METHODS: [Method; 6] = [
-    Method::Flat,
-    Method::Membrane,
-    Method::FairC1,
-    Method::FairC2,
-    Method::Hpde,
-    Method::Mls,
-];
-
 /// Cases in which a method may leave intersections of a patch, of those whose own truth has none.
 const CASES_WITH_INTERSECTIONS: usize = 3;
 
@@ -160,7 +151,7 @@ fn run(case: &Case, data: &MeshData, method: Method) -> Outcome {
 
     let intersections = report.holes.iter().map(|h| h.self_intersections).sum();
     let line = format!(
-        "{:24} {method:9} {:4} filled {:3} kept {:3} failed {:7} new triangles {intersections:4} intersections {seconds:6.2} s",
+        "{:24} {method:14} {:4} filled {:3} kept {:3} failed {:7} new triangles {intersections:4} intersections {seconds:6.2} s",
         case.name,
         report.count(HoleStatus::Filled),
         report.count(HoleStatus::Kept),
@@ -197,7 +188,9 @@ fn every_case_is_filled_by_every_method() {
         while let Some(i) = Some(next.fetch_add(1, Ordering::Relaxed)).filter(|&i| i < cases.len())
         {
             let data = io::read(cases[i].folder.join("input.ply")).unwrap();
-            let done = METHODS.iter().map(|&method| run(&cases[i], &data, method));
+            let done = Method::ALL
+                .iter()
+                .map(|&method| run(&cases[i], &data, method));
             *outcomes[i].lock().unwrap() = done.collect();
         }
     };
@@ -211,7 +204,7 @@ fn every_case_is_filled_by_every_method() {
         .map(|o| o.into_inner().unwrap())
         .collect();
     outcomes.iter().flatten().for_each(|o| say(&o.line));
-    for (m, method) in METHODS.iter().enumerate() {
+    for (m, method) in Method::ALL.iter().enumerate() {
         let intersecting: Vec<&str> = cases
             .iter()
             .zip(&outcomes)

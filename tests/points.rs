@@ -214,7 +214,7 @@ fn a_mesh_is_taken_for_its_points() {
 fn bad_points_are_errors_with_a_reason_and_no_file() {
     let folder = Folder::new();
     for (content, expected) in [
-        ("", "the file is empty"),
+        ("", "there are no points"),
         ("# nothing\n", "there are no points"),
         ("0 0 0\n1 0 0\n0 1 0\n", "3 points are too few"),
         ("0 0 0\n1 1 1\n2 2 2\n3 3 3\n4 4 4\n", "on one line"),

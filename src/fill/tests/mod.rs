@@ -1,6 +1,7 @@
 //! Filling holes, from the outside of the module: what every fill of any mesh must keep.
 
 mod attributes;
+mod auto;
 mod conflicts;
 mod creases;
 mod interruption;

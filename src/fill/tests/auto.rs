@@ -1,0 +1,115 @@
+//! Predicted patches: surfaces that are known come back.
+
+use super::{all_but_the_largest, fill, with_method};
+use crate::Candidate;
+use crate::boundary::select::Selection;
+use crate::fill::method::Method;
+use crate::fixtures::{self, Arrays};
+use crate::math::Vec3;
+
+/// The surface chosen for the only hole that was filled, and the largest distance of its new vertices.
+fn chosen_and_farthest(arrays: &Arrays, distance: impl Fn(&Vec3) -> f64) -> (Candidate, f64) {
+    let filled = fill(arrays, &Selection::default(), &with_method(Method::Auto));
+    let hole = filled.report.holes.iter().find(|h| h.method.is_some());
+    let hole = hole.unwrap();
+    assert_eq!(hole.method, Some(Method::Auto), "{:?}", hole.tried);
+    let farthest = filled.new_points().iter().map(distance).fold(0.0, f64::max);
+    (hole.prediction.as_ref().unwrap().chosen, farthest)
+}
+
+fn off_sphere(p: &Vec3) -> f64 {
+    (p.norm() - 1.0).abs()
+}
+
+#[test]
+fn windows_in_tori_come_back() {
+    let arrays = fixtures::torus(40, 80).cut(|c| (c[0] - 2.5).hypot(c[1]).hypot(c[2] - 0.5) < 0.9);
+    let distance = |p: &Vec3| ((p.xy().norm() - 2.0).hypot(p.z) - 1.0).abs();
+    let (chosen, farthest) = chosen_and_farthest(&arrays, distance);
+    assert_eq!(chosen, Candidate::Torus);
+    assert!(farthest < 2e-3, "{farthest}");
+}
+
+#[test]
+fn windows_in_saddles_come_back() {
+    let height = |x: f64, y: f64| 0.02 * ((x - 12.0).powi(2) - (y - 12.0).powi(2));
+    let arrays = fixtures::sheet(24, height).cut(|c| (c[0] - 12.0).hypot(c[1] - 12.0) < 4.0);
+    let filled = fill(&arrays, &all_but_the_largest(), &with_method(Method::Auto));
+    let farthest = filled
+        .new_points()
+        .iter()
+        .map(|p| (p.z - height(p.x, p.y)).abs())
+        .fold(0.0, f64::max);
+    let hole = filled.report.holes.iter().find(|h| h.method.is_some());
+    let prediction = hole.unwrap().prediction.as_ref().unwrap();
+    assert_eq!(prediction.chosen, Candidate::Quadric);
+    assert!(farthest < 1e-3, "{farthest}");
+}
+
+#[test]
+fn noise_is_measured_and_not_continued() {
+    let clean = fixtures::sphere(16).cut(|c| c[2] > 0.6);
+    let noisy = fixtures::sphere(16).jittered(0.02, 5).cut(|c| c[2] > 0.6);
+    let of = |arrays: &Arrays| fill(arrays, &Selection::default(), &with_method(Method::Auto));
+    let noise = |arrays: &Arrays| of(arrays).report.holes[0].prediction.clone().unwrap().noise;
+    let (without, with) = (noise(&clean), noise(&noisy));
+    assert!(without < 0.01 && with > 0.04, "{without} {with}");
+    let filled = of(&noisy);
+    assert_eq!(filled.report.holes[0].method, Some(Method::Auto));
+    let points = filled.new_points();
+    let mean = points.iter().map(off_sphere).sum::<f64>() / points.len() as f64;
+    assert!(mean < 0.02, "{mean}");
+}
+
+#[test]
+fn size_place_and_direction_change_neither_choice_nor_shape() {
+    let sphere = fixtures::sphere(14).jittered(0.004, 21).cut(|c| c[2] > 0.6);
+    let waves = fixtures::sheet(20, |x, y| 0.4 * fixtures::waves(x, y))
+        .jittered(0.01, 3)
+        .cut(|c| (c[0] - 10.0).hypot(c[1] - 10.0) < 4.0);
+    for arrays in [sphere, waves] {
+        let of = |arrays: &Arrays| {
+            let filled = fill(arrays, &Selection::default(), &with_method(Method::Auto));
+            let hole = filled.report.holes.iter().find(|h| h.prediction.is_some());
+            let chosen = hole.unwrap().prediction.as_ref().unwrap().chosen;
+            (filled, chosen)
+        };
+        let (original, chosen) = of(&arrays);
+        for (scale, angle, offset) in [
+            (1e-4, 0.0, [0.0; 3]),
+            (1e4, 0.5, [0.0; 3]),
+            (1.0, 1.0, [2e4, -2e4, 1e4]),
+        ] {
+            let (moved, moved_choice) = of(&arrays.moved(scale, angle, offset));
+            assert_eq!(moved_choice, chosen);
+            let new = original.new_points().iter().map(|&p| p.into()).collect();
+            let expected = Arrays::new(new, Vec::new()).moved(scale, angle, offset);
+            assert_eq!(moved.new_points().len(), expected.positions.len());
+            for (p, q) in moved.new_points().iter().zip(&expected.positions) {
+                let off = (p - Vec3::from(*q)).norm() / (2.0 * scale);
+                assert!(off < 1e-5, "{scale} {angle}: {off}");
+            }
+        }
+    }
+}
+
+#[test]
+fn another_order_of_vertices_and_triangles_changes_neither_choice_nor_shape() {
+    let arrays = fixtures::sphere(14).jittered(0.004, 21).cut(|c| c[2] > 0.6);
+    let of = |arrays: &Arrays| fill(arrays, &Selection::default(), &with_method(Method::Auto));
+    let original = of(&arrays);
+    for seed in 0..3 {
+        let shuffled = of(&arrays.shuffled(seed));
+        let chosen = |f: &super::Filled| f.report.holes[0].prediction.as_ref().unwrap().chosen;
+        assert_eq!(chosen(&shuffled), chosen(&original));
+        assert_eq!(shuffled.new_points().len(), original.new_points().len());
+        for p in shuffled.new_points() {
+            let nearest = original
+                .new_points()
+                .iter()
+                .map(|q| (p - q).norm())
+                .fold(1.0, f64::min);
+            assert!(nearest < 1e-5, "{seed}: {nearest}");
+        }
+    }
+}

@@ -42,6 +42,18 @@ impl Error {
         }
     }
 
+    pub(crate) fn invalid(message: impl Into<String>) -> Self {
+        Self::new(ErrorKind::InvalidInput, message)
+    }
+
+    pub(crate) fn topology(message: impl Into<String>) -> Self {
+        Self::new(ErrorKind::Topology, message)
+    }
+
+    pub(crate) fn geometry(message: impl Into<String>) -> Self {
+        Self::new(ErrorKind::Geometry, message)
+    }
+
     /// The caller asked to stop.
     pub(crate) fn cancelled() -> Self {
         Self::new(ErrorKind::Cancelled, "stopped by the caller")

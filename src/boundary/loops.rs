@@ -187,6 +187,8 @@ fn next_boundary_edge(mesh: &TriMesh, vertex: u32, halfedge: u32) -> Option<u32>
     for o in connectivity.outgoing(vertex) {
         for (side, h) in [(0, o.halfedge), (1, previous(o.halfedge))] {
             match connectivity.twin(h) {
+                // Of more than two fans none is the other one: there is no need to look at them all.
+                BOUNDARY if ends[side].len() == 2 => return Some(end),
                 BOUNDARY => ends[side].push(h),
                 NON_MANIFOLD => return Some(end),
                 _ => {}

@@ -1,7 +1,7 @@
 //! Whether a patch may be used: the checks that every filled hole has passed.
 
 use super::hole::Hole;
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, Result, proceed_unless};
 use crate::math::aabb::Aabb;
 use crate::math::cross_normal;
 use crate::mesh::connectivity::BOUNDARY;
@@ -24,7 +24,7 @@ const FARTHEST: f64 = 0.75;
 /// of a disk, less one for each island.
 ///
 /// # Errors
-/// [`ErrorKind::Topology`] or [`ErrorKind::Geometry`] with the first violation found; `Cancelled` when
+/// [`crate::ErrorKind::Topology`] or [`crate::ErrorKind::Geometry`] with the first violation found; `Cancelled` when
 /// `interrupted`, which is asked between the checks, returns true.
 pub(crate) fn check_patch(
     hole: &Hole,
@@ -36,13 +36,15 @@ pub(crate) fn check_patch(
         .iter()
         .position(|p| !p.iter().all(|c| c.is_finite()))
     {
-        return Err(geometry(format!("new vertex {v} is not finite")));
+        return Err(Error::geometry(format!("new vertex {v} is not finite")));
     }
     let rim = Aabb::around(&hole.shape.points);
     let limit = FARTHEST * (rim.hi - rim.lo).norm();
     let middle = (rim.hi + rim.lo) / 2.0;
     if surface.points.iter().any(|p| (p - middle).norm() > limit) {
-        return Err(geometry("the patch runs away from the hole".to_owned()));
+        return Err(Error::geometry(
+            "the patch runs away from the hole".to_owned(),
+        ));
     }
     let m = hole.shape.polygon.len();
     let mut rim_edges: Vec<(u32, u32)> = (0..m)
@@ -53,11 +55,13 @@ pub(crate) fn check_patch(
     let mut edges = Vec::with_capacity(3 * surface.triangles.len());
     for t in &surface.triangles {
         if t[0] == t[1] || t[1] == t[2] || t[2] == t[0] {
-            return Err(topology(format!("new triangle {t:?} names a vertex twice")));
+            return Err(Error::topology(format!(
+                "new triangle {t:?} names a vertex twice"
+            )));
         }
         let [a, b, c] = t.map(|v| &surface.points[v as usize]);
         if cross_normal(a, b, c).norm() < SMALLEST_DOUBLE_AREA {
-            return Err(geometry("a new triangle has no area".to_owned()));
+            return Err(Error::geometry("a new triangle has no area".to_owned()));
         }
         edges.extend((0..3).map(|k| edge_key(t[k], t[(k + 1) % 3])));
     }
@@ -71,7 +75,9 @@ pub(crate) fn check_patch(
         .flatten()
         .for_each(|&v| is_used[v as usize] = true);
     if let Some(v) = is_used.iter().position(|used| !used) {
-        return Err(topology(format!("vertex {v} of the patch has no triangle")));
+        return Err(Error::topology(format!(
+            "vertex {v} of the patch has no triangle"
+        )));
     }
     let mut edge_count = 0;
     let mut rim_edges_met = 0;
@@ -84,7 +90,7 @@ pub(crate) fn check_patch(
             _ => false,
         };
         if !is_right {
-            return Err(topology(format!(
+            return Err(Error::topology(format!(
                 "an edge of the patch would have {} new triangles or join two vertices twice",
                 same.len()
             )));
@@ -93,7 +99,7 @@ pub(crate) fn check_patch(
         edge_count += 1;
     }
     if rim_edges_met != rim_edges.len() {
-        return Err(topology(format!(
+        return Err(Error::topology(format!(
             "{} of {} rim edges would stay open",
             rim_edges.len() - rim_edges_met,
             rim_edges.len()
@@ -104,7 +110,7 @@ pub(crate) fn check_patch(
     let expected = (hole.shape.points.len() + 1) as i64 - (rim_edges.len() + bridges) as i64;
     let found = (surface.points.len() + surface.triangles.len()) as i64 - edge_count;
     if found != expected {
-        return Err(topology(format!(
+        return Err(Error::topology(format!(
             "the patch has the Euler characteristic {found} instead of {expected}"
         )));
     }
@@ -130,7 +136,7 @@ fn edge_of(key: u64) -> (u32, u32) {
 /// other holes may have been filled since the patch was made.
 ///
 /// # Errors
-/// [`ErrorKind::Topology`] when the patch would repeat an edge or a triangle, or its rim is not open.
+/// [`crate::ErrorKind::Topology`] when the patch would repeat an edge or a triangle, or its rim is not open.
 pub(crate) fn check_against_mesh(
     mesh: &TriMesh,
     hole: &Hole,
@@ -143,7 +149,7 @@ pub(crate) fn check_against_mesh(
         let (a, b) = (at(i), at(i + 1));
         let known = mesh.connectivity().outgoing(b).find(|o| o.target == a);
         if known.is_none_or(|o| mesh.connectivity().twin(o.halfedge) != BOUNDARY) {
-            return Err(topology(format!(
+            return Err(Error::topology(format!(
                 "the edge between vertices {a} and {b} is not open"
             )));
         }
@@ -154,26 +160,21 @@ pub(crate) fn check_against_mesh(
     for t in triangles {
         for k in 0..3 {
             let (a, b) = (t[k], t[(k + 1) % 3]);
+            if !(is_old(a) && is_old(b)) {
+                continue;
+            }
             let is_rim = rim_edges.binary_search(&(a.min(b), a.max(b))).is_ok();
-            if is_old(a) && is_old(b) && !is_rim && mesh.connectivity().has_edge(a, b) {
-                return Err(topology(format!(
+            if !is_rim && mesh.connectivity().has_edge(a, b) {
+                return Err(Error::topology(format!(
                     "vertices {a} and {b} are joined by an edge already"
                 )));
             }
         }
         if t.iter().all(|&v| is_old(v)) && mesh.connectivity().has_face(mesh.triangles(), *t) {
-            return Err(topology(format!(
+            return Err(Error::topology(format!(
                 "the patch would repeat the triangle {t:?}"
             )));
         }
     }
     Ok(())
-}
-
-fn topology(message: String) -> Error {
-    Error::new(ErrorKind::Topology, message)
-}
-
-fn geometry(message: String) -> Error {
-    Error::new(ErrorKind::Geometry, message)
 }

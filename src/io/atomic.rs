@@ -1,11 +1,73 @@
 //! Files that appear whole or not at all.
 
 use crate::error::{Error, ErrorKind, Result};
-use std::fs::{self, File};
+use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 const BUFFER_BYTES: usize = 1 << 20;
+
+/// Where a file is written.
+enum Place {
+    /// A device or pipe, which is written to in place.
+    Device(PathBuf),
+    /// A file that is made or replaced.
+    File {
+        target: PathBuf,
+        folder: PathBuf,
+        /// Those of the file that is there already.
+        permissions: Option<Permissions>,
+    },
+}
+
+impl Place {
+    fn of(path: &Path) -> Result<Self> {
+        let target = resolved(path);
+        let permissions = match fs::metadata(&target) {
+            Ok(found) if found.is_dir() => return Err(failed(path, "it is a folder")),
+            Ok(found) if !found.is_file() => return Ok(Self::Device(target)),
+            Ok(found) if found.permissions().readonly() => {
+                return Err(failed(path, "the existing file is read-only"));
+            }
+            Ok(found) => Some(found.permissions()),
+            Err(_) => None,
+        };
+        let folder = folder_of(&target);
+        if !folder.is_dir() {
+            let reason = format!("there is no folder {}", folder.display());
+            return Err(failed(path, &reason));
+        }
+        Ok(Self::File {
+            target,
+            folder,
+            permissions,
+        })
+    }
+}
+
+/// Checks that [`replace`] could write to `path`, as far as can be told without doing it: it is no folder and not
+/// read-only, and its folder takes new files.
+///
+/// # Errors
+/// [`ErrorKind::Io`] as [`replace`].
+pub fn check_destination(path: &Path) -> Result<()> {
+    if let Place::File { folder, .. } = Place::of(path)? {
+        tempfile::tempfile_in(&folder).map_err(|error| failed(path, &error.to_string()))?;
+    }
+    Ok(())
+}
+
+/// Whether two paths name the same file, as far as can be told before it exists.
+#[must_use]
+pub fn is_same_destination(a: &Path, b: &Path) -> bool {
+    let place = |path: &Path| {
+        let path = resolved(path);
+        let folder = folder_of(&path);
+        let folder = fs::canonicalize(&folder).unwrap_or(folder);
+        path.file_name().map(|name| folder.join(name))
+    };
+    place(a) == place(b)
+}
 
 /// Creates or replaces the file at `path` with what `write` writes.
 ///
@@ -20,34 +82,22 @@ pub fn replace(
     write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
 ) -> Result<()> {
     let io_error = |error: io::Error| failed(path, &error.to_string());
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
-    let existing = fs::metadata(&target).ok();
-    match &existing {
-        Some(metadata) if metadata.is_dir() => return Err(failed(path, "it is a folder")),
-        Some(metadata) if !metadata.is_file() => {
-            let device = File::options()
-                .write(true)
-                .open(&target)
-                .map_err(io_error)?;
-            return write_buffered(&device, write).map_err(io_error);
+    let (target, folder, permissions) = match Place::of(path)? {
+        Place::Device(target) => {
+            let device = File::options().write(true).open(&target);
+            return write_buffered(&device.map_err(io_error)?, write).map_err(io_error);
         }
-        Some(metadata) if metadata.permissions().readonly() => {
-            return Err(failed(path, "the existing file is read-only"));
-        }
-        _ => {}
-    }
-    let folder = folder_of(&target);
-    if !folder.is_dir() {
-        return Err(failed(
-            path,
-            &format!("there is no folder {}", folder.display()),
-        ));
-    }
+        Place::File {
+            target,
+            folder,
+            permissions,
+        } => (target, folder, permissions),
+    };
     let temporary = new_temporary(&folder).map_err(io_error)?;
-    if let Some(metadata) = existing {
+    if let Some(permissions) = permissions {
         temporary
             .as_file()
-            .set_permissions(metadata.permissions())
+            .set_permissions(permissions)
             .map_err(io_error)?;
     }
     write_buffered(temporary.as_file(), write).map_err(io_error)?;
@@ -63,6 +113,13 @@ fn failed(path: &Path, reason: &str) -> Error {
         ErrorKind::Io,
         format!("cannot write {}: {reason}", path.display()),
     )
+}
+
+/// The file that `path` stands for when it is a link, which may be still to come.
+fn resolved(path: &Path) -> PathBuf {
+    fs::canonicalize(path)
+        .or_else(|_| fs::read_link(path).map(|target| folder_of(path).join(target)))
+        .unwrap_or_else(|_| path.to_owned())
 }
 
 fn folder_of(path: &Path) -> PathBuf {
@@ -180,6 +237,36 @@ mod tests {
         replace(&link, |out| out.write_all(b"new")).unwrap();
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
         assert_eq!(fs::read(&target).unwrap(), b"new");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_symbolic_link_to_a_file_still_to_come_is_followed() {
+        let folder = tempfile::tempdir().unwrap();
+        let link = folder.path().join("link");
+        std::os::unix::fs::symlink("target", &link).unwrap();
+        check_destination(&link).unwrap();
+        replace(&link, |out| out.write_all(b"new")).unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read(folder.path().join("target")).unwrap(), b"new");
+    }
+
+    #[test]
+    fn a_missing_folder_and_a_folder_in_the_way_are_refused_beforehand() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(check_destination(&folder.path().join("no/a")).is_err());
+        assert!(check_destination(folder.path()).is_err());
+        assert!(check_destination(&folder.path().join("a")).is_ok());
+        assert!(names_in(folder.path()).is_empty());
+    }
+
+    #[test]
+    fn the_same_place_is_recognised_through_detours() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join("sub")).unwrap();
+        let detour = folder.path().join("sub/../a");
+        assert!(is_same_destination(&detour, &folder.path().join("a")));
+        assert!(!is_same_destination(&detour, &folder.path().join("b")));
     }
 
     #[cfg(target_os = "linux")]

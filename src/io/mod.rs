@@ -16,7 +16,7 @@ mod polygons;
 mod stl;
 mod text;
 
-pub use atomic::replace;
+pub use atomic::{check_destination, is_same_destination, replace};
 pub use ply::{PlyDetails, PlyElement, PlyEncoding};
 
 use crate::error::{Error, ErrorKind, Result};
@@ -66,7 +66,7 @@ impl MeshData {
         ];
         for (element, entries, expected) in counts {
             if entries != expected {
-                return Err(invalid(format!(
+                return Err(Error::invalid(format!(
                     "the {element} attributes have {entries} entries instead of {expected}"
                 )));
             }
@@ -77,7 +77,7 @@ impl MeshData {
             .iter()
             .position(|t| t.iter().any(|&v| v as usize >= n))
         {
-            Some(k) => Err(invalid(format!(
+            Some(k) => Err(Error::invalid(format!(
                 "triangle {k} has a corner that is not a vertex"
             ))),
             None => Ok(()),
@@ -118,7 +118,7 @@ impl Format {
             "obj" => Ok(Self::Obj),
             "off" => Ok(Self::Off),
             "stl" => Ok(Self::Stl),
-            _ => Err(invalid(format!(
+            _ => Err(Error::invalid(format!(
                 "{}: unknown file type; the known extensions are .ply, .obj, .off and .stl",
                 path.display()
             ))),
@@ -138,10 +138,12 @@ impl Format {
     }
 }
 
-/// Whether the extension of `path` is that of a format which [`read`] and [`write()`] know.
-#[must_use]
-pub fn is_known_extension(path: impl AsRef<Path>) -> bool {
-    Format::of(path.as_ref()).is_ok()
+/// Checks that the extension of `path` is that of a format which [`read`] and [`write()`] know.
+///
+/// # Errors
+/// [`ErrorKind::InvalidInput`] with the known extensions.
+pub fn check_extension(path: impl AsRef<Path>) -> Result<()> {
+    Format::of(path.as_ref()).map(|_| ())
 }
 
 /// Reads the mesh file at `path`.
@@ -243,7 +245,7 @@ fn lost_attributes(mesh: &MeshData, kept_colors: &[&str]) -> Vec<String> {
 fn check_single_precision(mesh: &MeshData) -> Result<()> {
     let overflows = |&x: &f64| x.is_finite() && !(x as f32).is_finite();
     match mesh.positions.iter().position(|p| p.iter().any(overflows)) {
-        Some(k) => Err(invalid(format!(
+        Some(k) => Err(Error::invalid(format!(
             "vertex {k} lies beyond the range of single precision"
         ))),
         None => Ok(()),
@@ -259,10 +261,6 @@ fn check_vertex_count(count: usize) -> Result<()> {
         ));
     }
     Ok(())
-}
-
-fn invalid(message: impl Into<String>) -> Error {
-    Error::new(ErrorKind::InvalidInput, message)
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@
 //! Complexity: O(n log n) in the number of triangles, by sorting their corners.
 
 use super::text::{Lines, parse_error, quoted, tokens};
-use super::{MeshData, check_single_precision, check_vertex_count, invalid};
+use super::{MeshData, check_single_precision, check_vertex_count};
 use crate::error::{Error, Result};
 use crate::mesh::attributes::ScalarType;
 use rayon::slice::ParallelSliceMut;
@@ -241,7 +241,9 @@ pub(super) fn check(mesh: &MeshData) -> Result<()> {
     check_single_precision(mesh)?;
     match u32::try_from(mesh.triangles.len()) {
         Ok(_) => Ok(()),
-        Err(_) => Err(invalid("an STL file cannot hold that many triangles")),
+        Err(_) => Err(Error::invalid(
+            "an STL file cannot hold that many triangles",
+        )),
     }
 }
 

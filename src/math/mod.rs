@@ -1,7 +1,9 @@
 //! Vectors, planes, boxes, random numbers and the sparse solver: no mesh, no hole.
 
 pub(crate) mod aabb;
+mod background;
 pub(crate) mod box_tree;
+mod envelope;
 pub(crate) mod plane;
 pub(crate) mod random;
 pub(crate) mod segments;

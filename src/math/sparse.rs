@@ -1,16 +1,23 @@
-//! Sparse symmetric positive definite systems, solved by the supernodal Cholesky factorisation of `faer`.
+//! Sparse symmetric positive definite systems: small ones are solved within their envelope, large ones by the
+//! supernodal Cholesky factorisation of `faer`.
 
 use super::Vec3;
+use super::background::run_unless;
+use super::envelope::Envelope;
 use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use faer::linalg::solvers::SolveCore;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Mat, Side};
-use nalgebra::DMatrix;
 
-/// Systems of up to this many unknowns are solved densely: the bookkeeping of a sparse factorisation would
-/// cost more than the zeros.
-const DENSE_LIMIT: usize = 128;
+/// Systems of more unknowns than this are not worth a look at their envelope.
+const ENVELOPE_UNKNOWNS: usize = 4096;
+/// Multiplications up to which the envelope is faster than the bookkeeping of a sparse factorisation.
+const ENVELOPE_WORK: u64 = 10_000_000;
+
+/// Systems of more unknowns are solved on a thread of their own, for which nobody has to wait who wants to stop: the
+/// steps of the factorisation cannot be interrupted. Up to here each takes some milliseconds.
+const WAITED_FOR: usize = 10_000;
 
 /// Added to the diagonal, relative to its mean, against loss of definiteness by rounding.
 const RELATIVE_SHIFT: f64 = 1e-12;
@@ -75,75 +82,71 @@ impl<'a> SpdSolver<'a> {
     ) -> Result<Vec<Vec3>> {
         let size = matrix.size();
         debug_assert_eq!(size, right_side.len());
-        if size <= DENSE_LIMIT {
-            return solve_dense(&matrix, right_side);
+        let diagonal = |j: usize| matrix.column_starts[j] as usize;
+        let sum: f64 = (0..size).map(|j| matrix.values[diagonal(j)]).sum();
+        let shift = RELATIVE_SHIFT * sum / size.max(1) as f64;
+        if size <= ENVELOPE_UNKNOWNS {
+            let envelope = Envelope::new(&matrix);
+            if envelope.work() <= ENVELOPE_WORK {
+                let solution = envelope.solve(&matrix, shift, right_side, self.interrupted)?;
+                return finite(solution.ok_or_else(|| {
+                    failed(format!(
+                        "the matrix of {size} unknowns is not positive definite"
+                    ))
+                })?);
+            }
         }
-        let diagonal = |matrix: &SymmetricMatrix, j: usize| matrix.column_starts[j] as usize;
-        let mean = (0..size)
-            .map(|j| matrix.values[diagonal(&matrix, j)])
-            .sum::<f64>()
-            / size as f64;
         for j in 0..size {
-            let at = diagonal(&matrix, j);
-            matrix.values[at] += RELATIVE_SHIFT * mean;
+            matrix.values[matrix.column_starts[j] as usize] += shift;
         }
-        let pattern = SymbolicSparseColMatRef::new_checked(
-            size,
-            size,
-            &matrix.column_starts,
-            None,
-            &matrix.rows,
-        );
         let is_known = self.pattern.0 == matrix.column_starts && self.pattern.1 == matrix.rows;
-        proceed_unless(self.interrupted)?;
-        let symbolic = match self.symbolic.take().filter(|_| is_known) {
-            Some(symbolic) => symbolic,
-            None => SymbolicLlt::try_new(pattern, Side::Lower)
-                .map_err(|e| failed(format!("symbolic factorisation: {e:?}")))?,
+        let known = self.symbolic.take().filter(|_| is_known);
+        let right_side = right_side.to_vec();
+        let work = move |interrupted: &dyn Fn() -> bool| {
+            factor_and_solve(&matrix, known, &right_side, interrupted)
+                .map(|(solution, symbolic)| (solution, symbolic, matrix))
         };
-        proceed_unless(self.interrupted)?;
-        let values = SparseColMatRef::new(pattern, &matrix.values[..]);
-        let factor = Llt::try_new_with_symbolic(symbolic.clone(), values, Side::Lower)
-            .map_err(|e| failed(format!("factorisation of {size} unknowns: {e:?}")))?;
-        proceed_unless(self.interrupted)?;
-        let mut x = Mat::from_fn(size, 3, |i, k| right_side[i][k]);
-        factor.solve_in_place_with_conj(Conj::No, x.as_mut());
+        let (solution, symbolic, matrix) = if size <= WAITED_FOR {
+            work(self.interrupted)?
+        } else {
+            run_unless(self.interrupted, work)??
+        };
         self.symbolic = Some(symbolic);
         self.pattern = (matrix.column_starts, matrix.rows);
-        finite(
-            (0..size)
-                .map(|i| Vec3::new(x[(i, 0)], x[(i, 1)], x[(i, 2)]))
-                .collect(),
-        )
+        finite(solution)
     }
 }
 
-/// Solves a small system by a dense Cholesky factorisation.
-fn solve_dense(matrix: &SymmetricMatrix, right_side: &[Vec3]) -> Result<Vec<Vec3>> {
+/// Solves a large system; `known` is the symbolic factorisation of its pattern, if there is one yet.
+fn factor_and_solve(
+    matrix: &SymmetricMatrix,
+    known: Option<SymbolicLlt<u32>>,
+    right_side: &[Vec3],
+    interrupted: &dyn Fn() -> bool,
+) -> Result<(Vec<Vec3>, SymbolicLlt<u32>)> {
     let size = matrix.size();
-    let mut full = DMatrix::zeros(size, size);
-    for j in 0..size {
-        for k in matrix.column_starts[j]..matrix.column_starts[j + 1] {
-            full[(matrix.rows[k as usize] as usize, j)] = matrix.values[k as usize];
-        }
-    }
-    let mean = full.diagonal().mean();
-    for j in 0..size {
-        full[(j, j)] += RELATIVE_SHIFT * mean;
-    }
-    // Only the lower triangle is read.
-    let factor = full.cholesky().ok_or_else(|| {
-        failed(format!(
-            "the matrix of {size} unknowns is not positive definite"
-        ))
-    })?;
-    let mut x = DMatrix::from_fn(size, 3, |i, k| right_side[i][k]);
-    factor.solve_mut(&mut x);
-    finite(
-        x.row_iter()
-            .map(|row| Vec3::new(row[0], row[1], row[2]))
-            .collect(),
-    )
+    let pattern =
+        SymbolicSparseColMatRef::new_checked(size, size, &matrix.column_starts, None, &matrix.rows);
+    proceed_unless(interrupted)?;
+    let symbolic = match known {
+        Some(symbolic) => symbolic,
+        None => SymbolicLlt::try_new(pattern, Side::Lower)
+            .map_err(|e| failed(format!("symbolic factorisation: {e:?}")))?,
+    };
+    proceed_unless(interrupted)?;
+    let values = SparseColMatRef::new(pattern, &matrix.values[..]);
+    let factor = Llt::try_new_with_symbolic(symbolic.clone(), values, Side::Lower)
+        .map_err(|e| failed(format!("factorisation of {size} unknowns: {e:?}")))?;
+    proceed_unless(interrupted)?;
+    let mut x = Mat::from_fn(size, 3, |i, k| right_side[i][k]);
+    factor.solve_in_place_with_conj(Conj::No, x.as_mut());
+    Ok((rows(&x), symbolic))
+}
+
+fn rows(x: &Mat<f64>) -> Vec<Vec3> {
+    (0..x.nrows())
+        .map(|i| Vec3::new(x[(i, 0)], x[(i, 1)], x[(i, 2)]))
+        .collect()
 }
 
 /// The solution, if all of it is finite.

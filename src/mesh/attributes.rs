@@ -9,7 +9,7 @@ mod values;
 pub(crate) use values::with_scalars;
 pub use values::{ListValues, ScalarType, ScalarValues};
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 
 /// The entries of a column.
 #[derive(Clone, Debug, PartialEq)]
@@ -156,15 +156,17 @@ impl Attributes {
     /// Adds a column at the end.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] when there is a column of this name or `values` does not have
+    /// [`crate::ErrorKind::InvalidInput`] when there is a column of this name or `values` does not have
     /// one entry per element; nothing changes then.
     pub fn push(&mut self, name: impl Into<String>, values: AttributeValues) -> Result<()> {
         let name = name.into();
         if self.get(&name).is_some() {
-            return Err(invalid(format!("there are two attributes named {name}")));
+            return Err(Error::invalid(format!(
+                "there are two attributes named {name}"
+            )));
         }
         if values.len() != self.len {
-            return Err(invalid(format!(
+            return Err(Error::invalid(format!(
                 "attribute {name} has {} entries for {} elements",
                 values.len(),
                 self.len
@@ -177,7 +179,7 @@ impl Attributes {
     /// Appends one element per item of `sources`: a copy of that existing element in all columns.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] when a source is not an existing element; nothing changes then.
+    /// [`crate::ErrorKind::InvalidInput`] when a source is not an existing element; nothing changes then.
     pub fn append_copies(&mut self, sources: &[usize]) -> Result<()> {
         self.check_sources(sources)?;
         for column in &mut self.columns {
@@ -192,7 +194,7 @@ impl Attributes {
     /// [`ScalarValues::push`] for the rounding); in a column of lists, a copy of `sources[j]`.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] when a source is not an existing element; nothing changes then.
+    /// [`crate::ErrorKind::InvalidInput`] when a source is not an existing element; nothing changes then.
     pub fn append_with(
         &mut self,
         sources: &[usize],
@@ -249,7 +251,7 @@ impl Attributes {
     fn check_sources(&self, sources: &[usize]) -> Result<()> {
         match sources.iter().find(|&&k| k >= self.len) {
             None => Ok(()),
-            Some(k) => Err(invalid(format!(
+            Some(k) => Err(Error::invalid(format!(
                 "no element {k} among {} to copy from",
                 self.len
             ))),
@@ -264,10 +266,6 @@ impl<'a> IntoIterator for &'a Attributes {
     fn into_iter(self) -> Self::IntoIter {
         self.iter()
     }
-}
-
-fn invalid(message: impl Into<String>) -> Error {
-    Error::new(ErrorKind::InvalidInput, message)
 }
 
 #[cfg(test)]
@@ -332,7 +330,7 @@ mod tests {
             let error = attributes
                 .push(name, scalars(ScalarValues::I32(values)))
                 .unwrap_err();
-            assert_eq!(error.kind(), ErrorKind::InvalidInput);
+            assert_eq!(error.kind(), crate::ErrorKind::InvalidInput);
         }
         assert_eq!(attributes, before);
     }

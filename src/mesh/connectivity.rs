@@ -36,7 +36,8 @@ pub(crate) struct Connectivity {
     /// Number of halfedges of the mesh as it was built.
     built: usize,
     rim: RimTable,
-    /// Outgoing halfedges of triangles that were appended after the mesh was built.
+    /// Outgoing halfedges of triangles that were appended after the mesh was built, at the vertices that were
+    /// on the rim of what was appended with them.
     appended: BTreeMap<u32, Vec<Outgoing>>,
 }
 
@@ -106,8 +107,8 @@ impl Connectivity {
 
     /// All halfedges that start at `vertex`, in ascending order.
     ///
-    /// Of the triangles that the mesh was built with, only those at vertices that were on the boundary
-    /// then are known: for any other vertex they are left out.
+    /// Of the triangles that the mesh was built with, or that were appended together, only those at vertices
+    /// on the boundary of these triangles are known: for any other vertex they are left out.
     pub(crate) fn outgoing(&self, vertex: u32) -> impl Iterator<Item = Outgoing> + '_ {
         let appended = self.appended.get(&vertex).map_or(&[][..], Vec::as_slice);
         self.rim.outgoing(vertex).iter().chain(appended).copied()
@@ -142,7 +143,7 @@ impl Connectivity {
 
     /// Whether some triangle has the edge `{a, b}`.
     ///
-    /// As [`outgoing`](Self::outgoing), this knows vertices on the boundary and appended triangles only.
+    /// As [`outgoing`](Self::outgoing), this knows the triangles at vertices on the boundary only.
     pub(crate) fn has_edge(&self, a: u32, b: u32) -> bool {
         self.outgoing(a).any(|o| o.target == b) || self.outgoing(b).any(|o| o.target == a)
     }
@@ -162,24 +163,50 @@ impl Connectivity {
     /// Requires that the appended triangles close boundary edges with opposite halfedges and share no
     /// edge with any other triangle; the pipeline verifies that before it appends.
     pub(crate) fn append(&mut self, triangles: &[[u32; 3]], first_face: usize) {
-        let first_halfedge = 3 * first_face as u32;
-        for h in first_halfedge..3 * triangles.len() as u32 {
-            let (a, b) = (origin(triangles, h), target(triangles, h));
-            let outgoing = Outgoing {
-                target: b,
-                halfedge: h,
-            };
-            self.appended.entry(a).or_default().push(outgoing);
-        }
+        let halfedges = 3 * first_face as u32..3 * triangles.len() as u32;
+        let ends = |h: u32| (origin(triangles, h), target(triangles, h));
         self.twin.resize(3 * triangles.len(), BOUNDARY);
-        for h in first_halfedge..3 * triangles.len() as u32 {
-            let (a, b) = (origin(triangles, h), target(triangles, h));
-            let opposite = self.outgoing(b).find(|o| o.target == a).map(|o| o.halfedge);
-            if let Some(opposite) = opposite {
-                self.twin[h as usize] = opposite;
-                self.twin[opposite as usize] = h;
+        // The two halfedges of an edge between appended triangles sort next to each other.
+        let mut edges: Vec<(u64, u32)> = halfedges
+            .clone()
+            .map(|h| {
+                let (a, b) = ends(h);
+                (u64::from(a.min(b)) << 32 | u64::from(a.max(b)), h)
+            })
+            .collect();
+        edges.sort_unstable();
+        let mut rim = Vec::new();
+        for same in edges.chunk_by(|x, y| x.0 == y.0) {
+            match *same {
+                [(_, g), (_, h)] => self.link(g, h),
+                _ => rim.extend(same.iter().map(|&(_, h)| h)),
             }
         }
+        for &h in &rim {
+            let (a, b) = ends(h);
+            let known = self.outgoing(b).find(|o| o.target == a);
+            if let Some(Outgoing { halfedge, .. }) = known {
+                self.link(h, halfedge);
+            }
+        }
+        let mut rim_vertices: Vec<u32> = rim
+            .iter()
+            .flat_map(|&h| <[u32; 2]>::from(ends(h)))
+            .collect();
+        rim_vertices.sort_unstable();
+        rim_vertices.dedup();
+        for halfedge in halfedges {
+            let (start, target) = ends(halfedge);
+            if rim_vertices.binary_search(&start).is_ok() {
+                let outgoing = Outgoing { target, halfedge };
+                self.appended.entry(start).or_default().push(outgoing);
+            }
+        }
+    }
+
+    fn link(&mut self, g: u32, h: u32) {
+        self.twin[g as usize] = h;
+        self.twin[h as usize] = g;
     }
 
     /// Takes back what [`append`](Self::append) did for the triangles from `first_face` on, which are still in

@@ -3,7 +3,7 @@
 use super::attributes::{AttributeValues, Attributes};
 use super::connectivity::Connectivity;
 use super::defects::MeshDefects;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::math::Vec3;
 use rayon::prelude::*;
 
@@ -32,7 +32,7 @@ impl TriMesh {
     /// Builds a mesh without attributes.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] when a coordinate is not finite, a triangle names a vertex that does
+    /// [`crate::ErrorKind::InvalidInput`] when a coordinate is not finite, a triangle names a vertex that does
     /// not exist, or there are more vertices or halfedges than 32-bit indices can name
     /// (about 1 billion triangles).
     ///
@@ -47,7 +47,7 @@ impl TriMesh {
     /// Builds a mesh that carries attributes per vertex and per triangle.
     ///
     /// # Errors
-    /// As [`TriMesh::new`], and [`ErrorKind::InvalidInput`] when the attributes are not as long as
+    /// As [`TriMesh::new`], and [`crate::ErrorKind::InvalidInput`] when the attributes are not as long as
     /// what they belong to.
     pub fn with_attributes(
         positions: Vec<[f64; 3]>,
@@ -174,10 +174,6 @@ impl TriMesh {
     }
 }
 
-fn invalid(message: String) -> Error {
-    Error::new(ErrorKind::InvalidInput, message)
-}
-
 fn check_sizes(
     positions: &[[f64; 3]],
     triangles: &[[u32; 3]],
@@ -185,7 +181,7 @@ fn check_sizes(
     face_attributes: &Attributes,
 ) -> Result<()> {
     if positions.len() >= u32::MAX as usize || triangles.len() > MOST_TRIANGLES {
-        return Err(invalid(format!(
+        return Err(Error::invalid(format!(
             "{} vertices and {} triangles are more than 32-bit indices can name",
             positions.len(),
             triangles.len()
@@ -196,7 +192,7 @@ fn check_sizes(
         ("face", face_attributes, triangles.len()),
     ] {
         if attributes.len() != expected {
-            return Err(invalid(format!(
+            return Err(Error::invalid(format!(
                 "the {what} attributes have {} entries where {expected} are needed",
                 attributes.len()
             )));
@@ -217,7 +213,7 @@ fn check_finite(positions: &[[f64; 3]]) -> Result<()> {
     match first {
         Some(v) => {
             let [x, y, z] = positions[v];
-            Err(invalid(format!(
+            Err(Error::invalid(format!(
                 "vertex {v} is not finite: ({x}, {y}, {z})"
             )))
         }

@@ -18,6 +18,9 @@
 //! triangles lie in one plane, and overlap there, has a tolerance: points computed to lie in a
 //! plane never do exactly.
 //!
+//! Neighbours in a flat patch whose planes differ by 1e-9 of their extent are thus told apart as exactly as any
+//! others; tests that snap small volumes to zero call some of them crossing.
+//!
 //! Not guaranteed: triangles without area (see [`has_area`]) cross nothing.
 
 use crate::math::{Vec3, cross_normal, unit};

@@ -6,6 +6,9 @@
 pub(crate) mod closest;
 pub mod deviation;
 pub(crate) mod intersect;
+#[cfg(test)]
+mod near_coplanar;
+mod projection;
 pub(crate) mod self_intersection;
 mod separation;
 pub(crate) mod shape;

@@ -11,6 +11,7 @@
 use super::{
     Surface,
     intersect::{COPLANAR, intersects_improperly},
+    projection::covers_nothing_twice,
     separation::Separator,
     spatial::FaceIndex,
 };
@@ -28,6 +29,12 @@ const PIECE: usize = 256;
 /// A sweep passes every mesh face near the patch; beyond this many for each of the patch's triangles, the
 /// tree is searched for one triangle after the other instead.
 const NEAR_PER_TRIANGLE: usize = 8;
+
+/// Patch triangles next to each other in the sweep that are passed over together.
+const CHUNK: usize = 16;
+
+/// Patches of more triangles are not worth a proof, whose cost grows with the square of their outline at worst.
+const PROVABLE: usize = 4096;
 
 /// Pairs that are reported by name.
 const EXAMPLES: usize = 8;
@@ -121,10 +128,11 @@ pub(crate) fn count_unless(
         corners: &corners,
         boxes: &boxes,
     };
+    let is_sound = corners.len() <= PROVABLE && covers_nothing_twice(patch.triangles, &corners);
     if corners.len() <= PIECE {
-        Ok(task.sweep())
+        Ok(task.sweep(is_sound))
     } else {
-        task.search_in_parallel(interrupted)
+        task.search_in_parallel(is_sound, interrupted)
     }
 }
 
@@ -174,15 +182,16 @@ impl Task<'_> {
         }
     }
 
-    /// Searches a patch of one piece along the axis of its largest extent.
-    fn sweep(&self) -> SelfIntersections {
+    /// Searches a patch of one piece along the axis of its largest extent; within itself only unless it `is_sound`.
+    fn sweep(&self, is_sound: bool) -> SelfIntersections {
         let whole = self.boxes.iter().fold(Aabb::empty(), |all, b| all.union(b));
         let axis = (whole.hi - whole.lo).imax();
         let mut swept: Vec<(Aabb, usize)> = self.boxes.iter().copied().zip(0..).collect();
         swept.sort_unstable_by(|(a, i), (b, j)| a.lo[axis].total_cmp(&b.lo[axis]).then(i.cmp(j)));
         let separators = self.separators(0..self.boxes.len());
         let mut pairs = Vec::new();
-        for (k, (a, i)) in swept.iter().enumerate() {
+        let unproved = if is_sound { &[] } else { &swept[..] };
+        for (k, (a, i)) in unproved.iter().enumerate() {
             for (b, j) in &swept[k + 1..] {
                 if b.lo[axis] > a.hi[axis] {
                     break;
@@ -199,16 +208,15 @@ impl Task<'_> {
             .tree()
             .overlapping_at_most(limit, &whole, &mut near)
         {
-            let widths = self.boxes.iter().map(|b| b.hi[axis] - b.lo[axis]);
-            let widest = widths.fold(0.0, f64::max);
+            let reach = |chunk: &[(Aabb, usize)]| {
+                chunk.iter().fold(Aabb::empty(), |all, (b, _)| all.union(b))
+            };
+            let reaches: Vec<Aabb> = swept.chunks(CHUNK).map(reach).collect();
             for &face in &near {
                 let a = Aabb::around(&self.mesh.corners(face as usize));
-                let first = swept.partition_point(|(b, _)| b.lo[axis] < a.lo[axis] - widest);
-                for (b, i) in &swept[first..] {
-                    if b.lo[axis] > a.hi[axis] {
-                        break;
-                    }
-                    if a.overlaps(b) {
+                let chunks = swept.chunks(CHUNK).zip(&reaches);
+                for (chunk, _) in chunks.filter(|(_, reach)| a.overlaps(reach)) {
+                    for (_, i) in chunk.iter().filter(|(b, _)| a.overlaps(b)) {
                         self.try_mesh(*i, &separators[*i], face, &mut pairs);
                     }
                 }
@@ -237,11 +245,21 @@ impl Task<'_> {
 
     fn search_in_parallel(
         &self,
+        is_sound: bool,
         interrupted: &(dyn Fn() -> bool + Sync),
     ) -> Result<SelfIntersections> {
         let stop = StopSign::new(interrupted);
-        let own = BoxTree::build_unless(self.boxes.len(), |i| self.boxes[i], interrupted)?;
-        let pieces = (0..self.boxes.len().div_ceil(PIECE)).into_par_iter();
+        let own = if is_sound {
+            None
+        } else {
+            let box_of = |i: usize| self.boxes[i];
+            Some(BoxTree::build_unless(
+                self.boxes.len(),
+                box_of,
+                interrupted,
+            )?)
+        };
+        let pieces = 0..self.boxes.len().div_ceil(PIECE);
         let search = |p: usize| {
             let piece = p * PIECE..((p + 1) * PIECE).min(self.boxes.len());
             let separators = self.separators(piece.clone());
@@ -252,15 +270,22 @@ impl Task<'_> {
                 if stop.is_set_at(i, 1) {
                     break;
                 }
-                own.overlapping(&self.boxes[i], &mut found);
-                for &j in found.iter().filter(|&&j| j as usize > i) {
-                    self.try_patch(i, separator, j as usize, &mut pairs);
+                if let Some(own) = &own {
+                    own.overlapping(&self.boxes[i], &mut found);
+                    for &j in found.iter().filter(|&&j| j as usize > i) {
+                        self.try_patch(i, separator, j as usize, &mut pairs);
+                    }
                 }
                 self.search_mesh(i, separator, &mut found, &mut pairs);
             }
             tally(pairs)
         };
-        let tallies: Vec<_> = pieces.map(search).collect();
+        // A pool of one thread would only add the way to it.
+        let tallies: Vec<_> = if rayon::current_num_threads() == 1 {
+            pieces.map(search).collect()
+        } else {
+            pieces.into_par_iter().map(search).collect()
+        };
         stop.proceed()?;
         Ok(tallies
             .into_iter()

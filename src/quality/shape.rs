@@ -8,9 +8,14 @@ pub(crate) fn smallest_angle([a, b, c]: &[Vec3; 3]) -> f64 {
     if a == b || b == c || c == a {
         return 0.0;
     }
+    // All three angles have the same opposite side, twice the area: the smallest has the longest adjacent one.
     let double_area = cross_normal(a, b, c).norm();
-    let angle = |tip: &Vec3, p: &Vec3, q: &Vec3| double_area.atan2((p - tip).dot(&(q - tip)));
-    angle(a, b, c).min(angle(b, c, a)).min(angle(c, a, b))
+    let adjacent = |tip: &Vec3, p: &Vec3, q: &Vec3| (p - tip).dot(&(q - tip));
+    double_area.atan2(
+        adjacent(a, b, c)
+            .max(adjacent(b, c, a))
+            .max(adjacent(c, a, b)),
+    )
 }
 
 #[cfg(test)]

@@ -45,10 +45,6 @@ pub(super) fn prev(h: Halfedge) -> Halfedge {
     if h.is_multiple_of(3) { h + 2 } else { h - 1 }
 }
 
-fn topology(message: String) -> Error {
-    Error::new(ErrorKind::Topology, message)
-}
-
 impl Connectivity {
     /// Links `triangles` over `vertex_count` vertices, of which the first `rim_count` are the rim.
     ///
@@ -82,7 +78,9 @@ impl Connectivity {
             .iter()
             .find(|t| t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
         {
-            return Err(topology(format!("patch triangle {t:?} repeats a vertex")));
+            return Err(Error::topology(format!(
+                "patch triangle {t:?} repeats a vertex"
+            )));
         }
         let mut mesh = Self {
             opposite: vec![NONE; 3 * triangles.len()],
@@ -128,12 +126,16 @@ impl Connectivity {
                         self.opposite[h as usize] = g;
                         if self.apex(g) == self.apex(h) {
                             let t = self.triangles()[g as usize / 3];
-                            return Err(topology(format!("patch triangle {t:?} occurs twice")));
+                            return Err(Error::topology(format!(
+                                "patch triangle {t:?} occurs twice"
+                            )));
                         }
                     }
                     _ => {
                         let (a, b) = (self.origin(same[0].1), self.target(same[0].1));
-                        return Err(topology(format!("patch edge {a} {b} is not manifold")));
+                        return Err(Error::topology(format!(
+                            "patch edge {a} {b} is not manifold"
+                        )));
                     }
                 }
             }
@@ -149,7 +151,7 @@ impl Connectivity {
         edges.sort_unstable();
         for (index, &(a, b, h)) in edges.iter().enumerate() {
             if a.max(b) as usize >= self.rim_count {
-                return Err(topology(format!(
+                return Err(Error::topology(format!(
                     "patch edge {a} {b} is open inside the rim"
                 )));
             }
@@ -173,7 +175,7 @@ impl Connectivity {
             self.start[self.origins[h as usize] as usize] = NONE;
         }
         match (0..corners.len()).find(|&v| self.corners(v as u32).count() != corners[v] as usize) {
-            Some(v) => Err(topology(format!(
+            Some(v) => Err(Error::topology(format!(
                 "patch triangles round vertex {v} form several fans"
             ))),
             None => Ok(()),

@@ -4,7 +4,7 @@ use crate::args::FillArgs;
 use crate::input::{LoadSeconds, Loaded, seconds_since};
 use crate::preview::Scene;
 use crate::report::FillFacts;
-use crate::{Failure, Outcome, console, destination, input, preview, report, table};
+use crate::{Failure, Outcome, console, input, preview, report, table};
 use holefill::io::{self, MeshData};
 use holefill::{
     BoundaryLoops, Error, ErrorKind, FillOptions, FillReport, HoleStatus, Progress, Selection,
@@ -70,12 +70,7 @@ pub(crate) fn run(args: &FillArgs) -> Result<Outcome, Failure> {
 
 /// Refuses destinations that cannot work, before minutes are spent.
 fn check_destinations(args: &FillArgs) -> Result<(), Failure> {
-    if !io::is_known_extension(&args.output) {
-        return Err(Failure::usage(format!(
-            "{}: unknown file type; the known extensions are .ply, .obj, .off and .stl",
-            args.output.display()
-        )));
-    }
+    io::check_extension(&args.output).map_err(|e| Failure::usage(e.to_string()))?;
     let extra: Vec<&Path> = [&args.report, &args.preview]
         .into_iter()
         .flatten()
@@ -84,7 +79,7 @@ fn check_destinations(args: &FillArgs) -> Result<(), Failure> {
     for (i, path) in extra.iter().enumerate() {
         let others = [args.input.as_path(), args.output.as_path()];
         let mut others = others.iter().chain(&extra[..i]);
-        if let Some(other) = others.find(|other| destination::is_same(path, other)) {
+        if let Some(other) = others.find(|other| io::is_same_destination(path, other)) {
             return Err(Failure::usage(format!(
                 "{} would overwrite {}",
                 path.display(),
@@ -93,7 +88,7 @@ fn check_destinations(args: &FillArgs) -> Result<(), Failure> {
         }
     }
     for path in std::iter::once(args.output.as_path()).chain(extra) {
-        destination::check(path)?;
+        io::check_destination(path).map_err(|e| Failure::file(e.to_string()))?;
     }
     Ok(())
 }

@@ -8,7 +8,6 @@ mod args;
 mod compare;
 mod console;
 mod demo;
-mod destination;
 mod fill;
 mod input;
 mod inspect;

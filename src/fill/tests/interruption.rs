@@ -9,7 +9,7 @@ use crate::fixtures::{self, Arrays};
 use std::sync::Mutex;
 
 /// Seconds of processor time that may pass between two questions.
-const LONGEST_GAP: f64 = 0.4;
+const LONGEST_GAP: f64 = 0.05;
 
 /// A band round a hole of `edges` edges with five lobes.
 fn wide_rim(edges: usize) -> Arrays {

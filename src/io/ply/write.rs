@@ -1,10 +1,10 @@
 //! A mesh written as PLY.
 
-use super::super::{MeshData, check_single_precision, invalid};
+use super::super::{MeshData, check_single_precision};
 use super::header::type_name;
 use super::number::{Encoded, encode_count, largest};
 use super::{PlyDetails, PlyEncoding};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::mesh::attributes::{
     Attribute, AttributeValues, Attributes, ListValues, ScalarType, with_scalars,
 };
@@ -22,7 +22,7 @@ pub(in super::super) fn check(mesh: &MeshData) -> Result<()> {
             Some("comment" | "obj_info")
         );
         if !is_remark || remark.contains(['\n', '\r']) {
-            return Err(invalid(format!(
+            return Err(Error::invalid(format!(
                 "not a comment or obj_info line: {remark:?}"
             )));
         }
@@ -35,7 +35,7 @@ pub(in super::super) fn check(mesh: &MeshData) -> Result<()> {
             .iter()
             .any(|other| other.name == *name);
         if !is_word(name) || is_repeated || ["vertex", "face"].contains(&name.as_str()) {
-            return Err(invalid(format!(
+            return Err(Error::invalid(format!(
                 "a PLY file cannot have one more element {name:?}"
             )));
         }
@@ -47,7 +47,7 @@ pub(in super::super) fn check(mesh: &MeshData) -> Result<()> {
 fn check_rows(element: &str, rows: &Attributes, taken: &[&str]) -> Result<()> {
     for Attribute { name, values } in rows {
         if !is_word(name) || taken.contains(&name.as_str()) {
-            return Err(invalid(format!(
+            return Err(Error::invalid(format!(
                 "a PLY file cannot have a {element} property {name:?}"
             )));
         }
@@ -57,7 +57,7 @@ fn check_rows(element: &str, rows: &Attributes, taken: &[&str]) -> Result<()> {
                 .map(|r| r.len())
                 .max();
             if longest > largest(lists.count_type()) {
-                return Err(invalid(format!(
+                return Err(Error::invalid(format!(
                     "{element} property {name} has too long a list"
                 )));
             }

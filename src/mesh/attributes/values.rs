@@ -1,7 +1,6 @@
 //! Numbers, and lists of numbers, of a type that is known at run time.
 
-use super::invalid;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use std::ops::Range;
 
 /// The type of a number in a column.
@@ -206,10 +205,12 @@ impl ListValues {
         ends: Vec<usize>,
     ) -> Result<Self> {
         if !count_type.is_integer() {
-            return Err(invalid("the length of a list needs an integer type"));
+            return Err(Error::invalid("the length of a list needs an integer type"));
         }
         if !ends.is_sorted() || ends.last().copied().unwrap_or(0) != items.len() {
-            return Err(invalid("the ends of the lists do not match their items"));
+            return Err(Error::invalid(
+                "the ends of the lists do not match their items",
+            ));
         }
         Ok(Self {
             count_type,

@@ -1,0 +1,66 @@
+# What `cmake --install` puts where: libraries, headers, the CMake package, the pkg-config file, the program.
+
+set(HOLEFILL_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/holefill")
+
+install(FILES include/holefill.h include/holefill.hpp DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+install(FILES "${HOLEFILL_OUTPUT_DIR}/${HOLEFILL_STATIC_FILE}" DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(FILES LICENSE-APACHE LICENSE-MIT DESTINATION "${CMAKE_INSTALL_DATADIR}/licenses/holefill")
+if(HOLEFILL_BUILD_PROGRAM)
+  install(PROGRAMS "${HOLEFILL_CARGO_TARGET_DIR}/${HOLEFILL_PROFILE_DIR}/holefill${CMAKE_EXECUTABLE_SUFFIX}"
+          DESTINATION "${CMAKE_INSTALL_BINDIR}")
+endif()
+
+# The shared library: libholefill.so.0.1.0, libholefill.so.0 for the loader, libholefill.so for the linker.
+if(WIN32)
+  install(PROGRAMS "${HOLEFILL_OUTPUT_DIR}/${HOLEFILL_SHARED_FILE}" DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  install(FILES "${HOLEFILL_OUTPUT_DIR}/${HOLEFILL_LINK_FILE}" DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  set(HOLEFILL_INSTALLED_SHARED "${CMAKE_INSTALL_BINDIR}/${HOLEFILL_SHARED_FILE}")
+elseif(APPLE)
+  install(PROGRAMS "${HOLEFILL_OUTPUT_DIR}/${HOLEFILL_SHARED_FILE}" DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  set(HOLEFILL_INSTALLED_SHARED "${CMAKE_INSTALL_LIBDIR}/${HOLEFILL_SHARED_FILE}")
+else()
+  set(HOLEFILL_REAL_NAME "${HOLEFILL_SHARED_FILE}.${PROJECT_VERSION}")
+  install(PROGRAMS "${HOLEFILL_OUTPUT_DIR}/${HOLEFILL_SHARED_FILE}" DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+          RENAME "${HOLEFILL_REAL_NAME}")
+  set(HOLEFILL_LINKS "${CMAKE_CURRENT_BINARY_DIR}/links")
+  file(MAKE_DIRECTORY "${HOLEFILL_LINKS}")
+  foreach(name IN ITEMS "${HOLEFILL_SHARED_NAME}" "${HOLEFILL_SHARED_FILE}")
+    file(CREATE_LINK "${HOLEFILL_REAL_NAME}" "${HOLEFILL_LINKS}/${name}" SYMBOLIC)
+    install(FILES "${HOLEFILL_LINKS}/${name}" DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  endforeach()
+  set(HOLEFILL_INSTALLED_SHARED "${CMAKE_INSTALL_LIBDIR}/${HOLEFILL_REAL_NAME}")
+endif()
+
+set(HOLEFILL_INSTALLED_STATIC "${CMAKE_INSTALL_LIBDIR}/${HOLEFILL_STATIC_FILE}")
+if(HOLEFILL_LINK_FILE)
+  set(HOLEFILL_INSTALLED_LINK "${CMAKE_INSTALL_LIBDIR}/${HOLEFILL_LINK_FILE}")
+endif()
+configure_package_config_file(
+  cmake/holefillConfig.cmake.in "${CMAKE_CURRENT_BINARY_DIR}/holefillConfig.cmake"
+  INSTALL_DESTINATION "${HOLEFILL_PACKAGE_DIR}"
+  PATH_VARS CMAKE_INSTALL_INCLUDEDIR)
+# Before 1.0 a minor version may break what the one before it promised.
+write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/holefillConfigVersion.cmake"
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/holefillConfig.cmake"
+              "${CMAKE_CURRENT_BINARY_DIR}/holefillConfigVersion.cmake"
+        DESTINATION "${HOLEFILL_PACKAGE_DIR}")
+
+# Paths in the pkg-config file follow the file, so that the folder can be moved. An absolute libdir cannot.
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
+  set(HOLEFILL_PC_PREFIX "${CMAKE_INSTALL_PREFIX}")
+  set(HOLEFILL_PC_LIBDIR "${CMAKE_INSTALL_LIBDIR}")
+else()
+  string(REGEX REPLACE "[^/]+" ".." HOLEFILL_PC_UP "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+  set(HOLEFILL_PC_PREFIX "\${pcfiledir}/${HOLEFILL_PC_UP}")
+  set(HOLEFILL_PC_LIBDIR "\${prefix}/${CMAKE_INSTALL_LIBDIR}")
+endif()
+if(IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
+  set(HOLEFILL_PC_INCLUDEDIR "${CMAKE_INSTALL_INCLUDEDIR}")
+else()
+  set(HOLEFILL_PC_INCLUDEDIR "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
+endif()
+list(TRANSFORM HOLEFILL_SYSTEM_LIBRARIES PREPEND "-l" OUTPUT_VARIABLE HOLEFILL_PC_SYSTEM_LIBRARIES)
+list(JOIN HOLEFILL_PC_SYSTEM_LIBRARIES " " HOLEFILL_PC_SYSTEM_LIBRARIES)
+configure_file(cmake/holefill.pc.in "${CMAKE_CURRENT_BINARY_DIR}/holefill.pc" @ONLY)
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/holefill.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")

@@ -1,0 +1,344 @@
+/* Every function of the C interface once, as it is meant to be used. */
+#include "check.h"
+#include "sheet.h"
+
+#include <holefill.h>
+
+#include <string.h>
+
+static void check_versions_and_names(void) {
+    uint64_t i;
+    CHECK(holefill_abi_version() == HOLEFILL_ABI_VERSION);
+    CHECK(strchr(holefill_version(), '.') != NULL);
+    CHECK(strcmp(holefill_status_name(HOLEFILL_STATUS_INVALID_HANDLE), "INVALID_HANDLE") == 0);
+    CHECK(strcmp(holefill_status_name(-12345), "UNKNOWN") == 0);
+    CHECK(strlen(holefill_status_message(HOLEFILL_STATUS_BUSY)) > 0);
+    CHECK(holefill_method_count() >= 5);
+    for (i = 0; i < holefill_method_count(); ++i) {
+        CHECK(strlen(holefill_method_name(i)) > 0 && strlen(holefill_method_summary(i)) > 0);
+    }
+    CHECK(holefill_method_name(i) == NULL && holefill_method_summary(i) == NULL);
+    CHECK(holefill_parameter_count() > 0);
+    for (i = 0; i < holefill_parameter_count(); ++i) {
+        CHECK(strchr(holefill_parameter_name(i), '.') != NULL);
+        CHECK(strlen(holefill_parameter_help(i)) > 0 && strlen(holefill_parameter_allowed(i)) > 0);
+        CHECK(strlen(holefill_parameter_default(i)) > 0);
+    }
+    CHECK(holefill_parameter_name(i) == NULL && holefill_parameter_help(i) == NULL);
+    CHECK(holefill_parameter_allowed(i) == NULL && holefill_parameter_default(i) == NULL);
+}
+
+static void check_parameters(void) {
+    HolefillParameters parameters = {0};
+    HolefillError error = {0};
+    HolefillStatus status = HOLEFILL_STATUS_OK;
+    uint64_t length = 0, i;
+    char text[256];
+    CHECK_OK(holefill_parameters_new(&parameters, &error));
+    for (i = 0; i < holefill_parameter_count(); ++i) {
+        const char *name = holefill_parameter_name(i);
+        CHECK_OK(holefill_parameters_get(parameters, name, text, sizeof text, &length, &error));
+        CHECK(strcmp(text, holefill_parameter_default(i)) == 0 && length == strlen(text));
+        CHECK_OK(holefill_parameters_set(parameters, name, text, &error));
+    }
+    CHECK_STATUS(holefill_parameters_set(parameters, "refine.densty", "1", &error), HOLEFILL_STATUS_NOT_FOUND);
+    CHECK_OK(holefill_error_status(error, &status));
+    CHECK(status == HOLEFILL_STATUS_NOT_FOUND);
+    CHECK_OK(holefill_error_message(error, NULL, 0, &length));
+    CHECK(length > 0);
+    CHECK_STATUS(holefill_error_message(error, text, 2, &length), HOLEFILL_STATUS_BUFFER_TOO_SMALL);
+    CHECK_OK(holefill_error_free(error));
+    CHECK_OK(holefill_parameters_free(parameters));
+}
+
+static HolefillMesh make_mesh(const Sheet *sheet) {
+    const HolefillInput positions = {sheet->positions, sheet->vertex_count, 0, HOLEFILL_TYPE_F64, 0};
+    const HolefillInput triangles = {sheet->triangles, sheet->triangle_count, 0, HOLEFILL_TYPE_U32, 0};
+    HolefillMesh mesh = {0};
+    CHECK_OK(holefill_mesh_from_arrays(&positions, &triangles, &mesh, NULL));
+    return mesh;
+}
+
+static void check_attributes(HolefillMesh mesh, const Sheet *sheet) {
+    uint8_t *colors = (uint8_t *)malloc((size_t)sheet->vertex_count * 3);
+    HolefillInput values = HOLEFILL_INPUT_INIT;
+    HolefillAttributeInfo info = HOLEFILL_ATTRIBUTE_INFO_INIT;
+    HolefillOutput output = HOLEFILL_OUTPUT_INIT;
+    uint64_t count = 0, length = 0, i;
+    char name[16];
+    double back[3] = {0, 0, 0};
+    CHECK(colors != NULL);
+    for (i = 0; i < sheet->vertex_count; ++i) {
+        colors[3 * i] = 200;
+        colors[3 * i + 1] = (uint8_t)(i % 200);
+        colors[3 * i + 2] = 7;
+    }
+    values.data = colors;
+    values.count = sheet->vertex_count;
+    values.scalar_type = HOLEFILL_TYPE_U8;
+    CHECK_OK(holefill_mesh_add_attribute(mesh, HOLEFILL_ELEMENT_VERTEX, "color", 3, &values, NULL));
+    CHECK_OK(holefill_mesh_attribute_count(mesh, HOLEFILL_ELEMENT_VERTEX, &count, NULL));
+    CHECK(count == 1);
+    CHECK_OK(holefill_mesh_attribute_info(mesh, HOLEFILL_ELEMENT_VERTEX, 0, &info, NULL));
+    CHECK(info.components == 3 && info.scalar_type == HOLEFILL_TYPE_U8 && info.count == sheet->vertex_count);
+    CHECK_OK(holefill_mesh_attribute_name(mesh, HOLEFILL_ELEMENT_VERTEX, 0, name, sizeof name, &length, NULL));
+    CHECK(strcmp(name, "color") == 0 && length == 5);
+    output.data = back;
+    output.count = 1;
+    output.scalar_type = HOLEFILL_TYPE_F64;
+    CHECK_OK(holefill_mesh_read_attribute(mesh, HOLEFILL_ELEMENT_VERTEX, 0, 5, &output, NULL));
+    CHECK(back[0] == 200 && back[1] == 5 && back[2] == 7);
+    free(colors);
+}
+
+static void check_loops(HolefillMesh mesh, const Sheet *sheet) {
+    HolefillLoopInfo info = HOLEFILL_LOOP_INFO_INIT;
+    HolefillSelection selection;
+    HolefillOutput output = HOLEFILL_OUTPUT_INIT;
+    HolefillInput chain = HOLEFILL_INPUT_INIT;
+    uint32_t vertices[4 * SHEET_HOLE];
+    uint64_t count = 0, id = 0, found = 0, ids[32];
+    CHECK_OK(holefill_selection_init(&selection, sizeof selection));
+    CHECK_OK(holefill_mesh_prepare(mesh, NULL));
+    CHECK_OK(holefill_mesh_loop_count(mesh, &count, NULL));
+    CHECK(count == sheet->hole_count + 1);
+    CHECK_OK(holefill_mesh_find_edge(mesh, sheet->hole_edge[0], sheet->hole_edge[1], &id, NULL));
+    CHECK_OK(holefill_mesh_loop_info(mesh, id, &info, NULL));
+    CHECK(info.edge_count == 4 * SHEET_HOLE && info.vertex_count == info.edge_count && info.is_open == 1);
+    CHECK(info.perimeter >= 4 * SHEET_HOLE && info.loop_class == HOLEFILL_CLASS_SIMPLE);
+    output.data = vertices;
+    output.count = info.vertex_count;
+    output.scalar_type = HOLEFILL_TYPE_U32;
+    CHECK_OK(holefill_mesh_read_loop(mesh, id, 0, &output, NULL));
+    chain.data = vertices;
+    chain.count = info.vertex_count;
+    chain.scalar_type = HOLEFILL_TYPE_U32;
+    CHECK_OK(holefill_mesh_find_vertices(mesh, &chain, NULL, 0, &count, NULL));
+    CHECK_OK(holefill_mesh_find_vertices(mesh, &chain, &found, 1, &count, NULL));
+    CHECK(count == 1 && found == id);
+    selection.keep_largest = 1;
+    CHECK_OK(holefill_mesh_select(mesh, &selection, ids, 32, &count, NULL));
+    CHECK(count == sheet->hole_count);
+}
+
+static int32_t count_calls(const HolefillProgress *progress, void *data) {
+    CHECK(progress->holes_done <= progress->holes_total);
+    ++*(uint64_t *)data;
+    return 0;
+}
+
+static void count_lines(HolefillLogLevel level, const char *message, void *data) {
+    CHECK(level >= HOLEFILL_LOG_WARNING && strlen(message) > 0);
+    ++*(uint64_t *)data;
+}
+
+static void check_report(HolefillReport report, uint64_t expected) {
+    HolefillSummary summary = HOLEFILL_SUMMARY_INIT;
+    HolefillHole hole = HOLEFILL_HOLE_INIT;
+    uint64_t i, length = 0, filled = 0;
+    CHECK_OK(holefill_report_summary(report, &summary, NULL));
+    CHECK(summary.filled == expected && summary.failed == 0 && summary.cancelled == 0);
+    for (i = 0; i < summary.hole_count; ++i) {
+        char reason[256];
+        uint32_t k;
+        CHECK_OK(holefill_report_hole(report, i, &hole, NULL));
+        CHECK_OK(holefill_report_reason(report, i, reason, sizeof reason, &length, NULL));
+        for (k = 0; k < hole.tried_count; ++k) {
+            const char *method = NULL;
+            CHECK_OK(holefill_report_tried(report, i, k, &method, reason, sizeof reason, &length, NULL));
+            CHECK(method != NULL && length > 0);
+        }
+        if (hole.status == HOLEFILL_HOLE_FILLED) {
+            ++filled;
+            CHECK(hole.method != NULL && hole.triangle_count > 0 && hole.min_angle > 0.0);
+            CHECK(hole.cause == HOLEFILL_CAUSE_NONE);
+        }
+    }
+    CHECK(filled == expected);
+    CHECK_OK(holefill_report_free(report));
+}
+
+static void check_fills(HolefillMesh mesh, const Sheet *sheet) {
+    HolefillFillOptions options = HOLEFILL_FILL_OPTIONS_INIT, same;
+    HolefillSelection selection = HOLEFILL_SELECTION_INIT;
+    HolefillReport report = {0};
+    HolefillInput rows = HOLEFILL_INPUT_INIT;
+    HolefillLoopInfo info = HOLEFILL_LOOP_INFO_INIT;
+    HolefillMeshInfo size = HOLEFILL_MESH_INFO_INIT;
+    HolefillOutput output = HOLEFILL_OUTPUT_INIT;
+    uint32_t vertices[4 * SHEET_HOLE];
+    uint64_t id = 0, calls = 0, lines = 0, i;
+    double *positions;
+    CHECK_OK(holefill_fill_options_init(&same, sizeof same));
+    CHECK(same.struct_size == options.struct_size && same.version == options.version && same.threads == 0);
+    CHECK_OK(holefill_mesh_find_edge(mesh, sheet->hole_edge[0], sheet->hole_edge[1], &id, NULL));
+    CHECK_OK(holefill_mesh_fill_loop(mesh, id, NULL, &report, NULL));
+    check_report(report, 1);
+    CHECK_OK(holefill_mesh_loop_info(mesh, id, &info, NULL));
+    CHECK(info.is_open == 0);
+    CHECK_STATUS(holefill_mesh_fill_loop(mesh, id, NULL, NULL, NULL), HOLEFILL_STATUS_INVALID_ARGUMENT);
+    CHECK_OK(holefill_mesh_undo(mesh, NULL));
+    CHECK_STATUS(holefill_mesh_undo(mesh, NULL), HOLEFILL_STATUS_NOTHING_TO_UNDO);
+    CHECK_OK(holefill_mesh_fill_edge(mesh, sheet->hole_edge[0], sheet->hole_edge[1], NULL, NULL, NULL));
+    CHECK_OK(holefill_mesh_undo(mesh, NULL));
+    output.data = vertices;
+    output.count = 4 * SHEET_HOLE;
+    output.scalar_type = HOLEFILL_TYPE_U32;
+    CHECK_OK(holefill_mesh_read_loop(mesh, id, 0, &output, NULL));
+    rows.data = vertices;
+    rows.count = 4 * SHEET_HOLE;
+    rows.scalar_type = HOLEFILL_TYPE_U32;
+    CHECK_OK(holefill_mesh_fill_vertices(mesh, &rows, NULL, &report, NULL));
+    check_report(report, 1);
+    CHECK_OK(holefill_mesh_undo(mesh, NULL));
+    rows.data = &id;
+    rows.count = 1;
+    rows.scalar_type = HOLEFILL_TYPE_U64;
+    CHECK_OK(holefill_mesh_fill_loops(mesh, &rows, NULL, &report, NULL));
+    check_report(report, 1);
+
+    selection.keep_largest = 1;
+    options.method = "fair-c1";
+    options.threads = 1;
+    options.progress = count_calls;
+    options.progress_data = &calls;
+    options.log = count_lines;
+    options.log_data = &lines;
+    CHECK_OK(holefill_mesh_fill_selected(mesh, &selection, &options, &report, NULL));
+    check_report(report, sheet->hole_count - 1);
+    CHECK(calls >= sheet->hole_count - 1 && lines >= sheet->hole_count - 1);
+
+    /* What was there is there, bit for bit. */
+    CHECK_OK(holefill_mesh_info(mesh, &size, NULL));
+    CHECK(size.input_vertex_count == sheet->vertex_count && size.vertex_count > size.input_vertex_count);
+    CHECK(size.undo_count == 2 && size.is_polyline == 0);
+    positions = (double *)malloc((size_t)size.vertex_count * 3 * sizeof(double));
+    CHECK(positions != NULL);
+    output.data = positions;
+    output.count = size.vertex_count;
+    output.scalar_type = HOLEFILL_TYPE_F64;
+    CHECK_OK(holefill_mesh_read_positions(mesh, 0, &output, NULL));
+    CHECK(memcmp(positions, sheet->positions, (size_t)sheet->vertex_count * 3 * sizeof(double)) == 0);
+    for (i = 0; i < 3 * size.vertex_count; ++i) {
+        CHECK(positions[i] > -100.0 && positions[i] < 100.0);
+    }
+    free(positions);
+}
+
+static void check_plans(HolefillMesh mesh, const Sheet *sheet) {
+    HolefillPlan plan = {0};
+    HolefillReport report = {0};
+    HolefillPatchInfo patch = HOLEFILL_PATCH_INFO_INIT;
+    HolefillSelection selection = HOLEFILL_SELECTION_INIT;
+    HolefillOutput output = HOLEFILL_OUTPUT_INIT;
+    HolefillInput rows = HOLEFILL_INPUT_INIT;
+    uint32_t vertices[4 * SHEET_HOLE], *triangles;
+    double *positions;
+    uint64_t id = 0, i;
+    CHECK_OK(holefill_mesh_find_edge(mesh, sheet->hole_edge[0], sheet->hole_edge[1], &id, NULL));
+    CHECK_OK(holefill_mesh_plan_loop(mesh, id, NULL, &plan, NULL));
+    CHECK_OK(holefill_plan_patch(plan, id, &patch, NULL));
+    CHECK(patch.first_vertex == sheet->vertex_count && patch.vertex_count > 0);
+    positions = (double *)malloc((size_t)patch.vertex_count * 3 * sizeof(double));
+    triangles = (uint32_t *)malloc((size_t)patch.triangle_count * 3 * sizeof(uint32_t));
+    CHECK(positions != NULL && triangles != NULL);
+    output.data = positions;
+    output.count = patch.vertex_count;
+    output.scalar_type = HOLEFILL_TYPE_F64;
+    CHECK_OK(holefill_plan_read_positions(plan, id, 0, &output, NULL));
+    output.data = triangles;
+    output.count = patch.triangle_count;
+    output.scalar_type = HOLEFILL_TYPE_U32;
+    CHECK_OK(holefill_plan_read_triangles(plan, id, 0, &output, NULL));
+    for (i = 0; i < 3 * patch.triangle_count; ++i) {
+        CHECK(triangles[i] < patch.first_vertex + patch.vertex_count);
+    }
+    free(positions);
+    free(triangles);
+    CHECK_OK(holefill_plan_report(plan, &report, NULL));
+    check_report(report, 1);
+    CHECK_OK(holefill_plan_apply(plan, mesh, NULL, &report, NULL));
+    check_report(report, 1);
+    CHECK_OK(holefill_plan_free(plan));
+    CHECK_OK(holefill_mesh_undo(mesh, NULL));
+
+    CHECK_OK(holefill_mesh_plan_edge(mesh, sheet->hole_edge[0], sheet->hole_edge[1], NULL, &plan, NULL));
+    CHECK_OK(holefill_plan_free(plan));
+    output.data = vertices;
+    output.count = 4 * SHEET_HOLE;
+    output.scalar_type = HOLEFILL_TYPE_U32;
+    CHECK_OK(holefill_mesh_read_loop(mesh, id, 0, &output, NULL));
+    rows.data = vertices;
+    rows.count = 4 * SHEET_HOLE;
+    rows.scalar_type = HOLEFILL_TYPE_U32;
+    CHECK_OK(holefill_mesh_plan_vertices(mesh, &rows, NULL, &plan, NULL));
+    CHECK_OK(holefill_plan_free(plan));
+    rows.data = &id;
+    rows.count = 1;
+    rows.scalar_type = HOLEFILL_TYPE_U64;
+    CHECK_OK(holefill_mesh_plan_loops(mesh, &rows, NULL, &plan, NULL));
+    CHECK_OK(holefill_plan_free(plan));
+    selection.keep_largest = 1;
+    CHECK_OK(holefill_mesh_plan_selected(mesh, &selection, NULL, &plan, NULL));
+    CHECK_OK(holefill_plan_apply(plan, mesh, NULL, &report, NULL));
+    check_report(report, sheet->hole_count);
+    CHECK_OK(holefill_plan_free(plan));
+}
+
+static void check_polyline(void) {
+    enum { COUNT = 24 };
+    float points[COUNT][3], normals[COUNT][3];
+    HolefillInput input = {points, COUNT, 0, HOLEFILL_TYPE_F32, 0};
+    HolefillInput normal_input = {normals, COUNT, 0, HOLEFILL_TYPE_F32, 0};
+    HolefillMesh mesh = {0};
+    HolefillReport report = {0};
+    HolefillDefects defects = HOLEFILL_DEFECTS_INIT;
+    HolefillMeshInfo info = HOLEFILL_MESH_INFO_INIT;
+    HolefillOutput output = HOLEFILL_OUTPUT_INIT;
+    uint64_t triangle[3] = {9, 9, 9};
+    int i;
+    for (i = 0; i < COUNT; ++i) {
+        const double t = 6.283185307179586 * i / COUNT;
+        points[i][0] = (float)cos(t);
+        points[i][1] = (float)sin(t);
+        points[i][2] = 0.0f;
+        /* The rim of a spherical cap: the patch bulges. */
+        normals[i][0] = (float)(0.6 * cos(t));
+        normals[i][1] = (float)(0.6 * sin(t));
+        normals[i][2] = 0.8f;
+    }
+    CHECK_OK(holefill_mesh_from_polyline(&input, &normal_input, &mesh, NULL));
+    CHECK_OK(holefill_mesh_fill_loop(mesh, 0, NULL, &report, NULL));
+    check_report(report, 1);
+    CHECK_OK(holefill_mesh_info(mesh, &info, NULL));
+    CHECK(info.is_polyline == 1 && info.input_vertex_count == COUNT && info.vertex_count > COUNT);
+    output.data = triangle;
+    output.count = 1;
+    output.scalar_type = HOLEFILL_TYPE_U64;
+    CHECK_OK(holefill_mesh_read_triangles(mesh, 0, &output, NULL));
+    CHECK(triangle[0] < info.vertex_count && triangle[1] < info.vertex_count && triangle[2] < info.vertex_count);
+    CHECK_OK(holefill_mesh_free(mesh));
+    CHECK_OK(holefill_mesh_from_polyline(&input, NULL, &mesh, NULL));
+    CHECK_OK(holefill_mesh_defects(mesh, &defects, NULL));
+    CHECK(defects.nonmanifold_edges == 0);
+    CHECK_OK(holefill_mesh_free(mesh));
+}
+
+int main(void) {
+    Sheet sheet = sheet_new();
+    HolefillMesh mesh;
+    check_versions_and_names();
+    check_parameters();
+    mesh = make_mesh(&sheet);
+    check_attributes(mesh, &sheet);
+    check_loops(mesh, &sheet);
+    check_plans(mesh, &sheet);
+    CHECK_OK(holefill_mesh_undo(mesh, NULL));
+    check_fills(mesh, &sheet);
+    CHECK_OK(holefill_mesh_free(mesh));
+    check_polyline();
+    sheet_free(&sheet);
+    CHECK(holefill_handle_count() == 0);
+    puts("every function: ok");
+    return 0;
+}

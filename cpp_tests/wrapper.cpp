@@ -1,0 +1,214 @@
+// holefill.hpp: everything once, moves, exceptions, and exceptions out of callbacks.
+#include "check.h"
+#include "sheet.h"
+
+#include <holefill.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <stdexcept>
+#include <type_traits>
+
+static_assert(!std::is_copy_constructible_v<holefill::Mesh> && std::is_nothrow_move_constructible_v<holefill::Mesh>);
+static_assert(!std::is_copy_constructible_v<holefill::Plan> && std::is_nothrow_move_assignable_v<holefill::Plan>);
+static_assert(!std::is_copy_constructible_v<holefill::Report>);
+
+namespace {
+
+using Points = std::vector<std::array<double, 3>>;
+using Triangles = std::vector<std::array<uint32_t, 3>>;
+
+struct Arrays {
+    Points positions;
+    Triangles triangles;
+    std::array<uint64_t, 2> hole_edge, rim_edge;
+    uint64_t hole_count;
+};
+
+Arrays arrays() {
+    Sheet sheet = sheet_new();
+    Arrays a;
+    for (uint64_t i = 0; i < sheet.vertex_count; ++i) {
+        a.positions.push_back({sheet.positions[3 * i], sheet.positions[3 * i + 1], sheet.positions[3 * i + 2]});
+    }
+    for (uint64_t i = 0; i < sheet.triangle_count; ++i) {
+        a.triangles.push_back({sheet.triangles[3 * i], sheet.triangles[3 * i + 1], sheet.triangles[3 * i + 2]});
+    }
+    a.hole_edge = {sheet.hole_edge[0], sheet.hole_edge[1]};
+    a.rim_edge = {sheet.rim_edge[0], sheet.rim_edge[1]};
+    a.hole_count = sheet.hole_count;
+    sheet_free(&sheet);
+    return a;
+}
+
+template <class Function>
+HolefillStatus status_of(Function function) {
+    try {
+        function();
+    } catch (const holefill::Exception& e) {
+        CHECK(e.what()[0] != '\0');
+        return e.status();
+    }
+    return HOLEFILL_STATUS_OK;
+}
+
+void everything_once() {
+    const Arrays a = arrays();
+    holefill::Mesh mesh = holefill::Mesh::from_arrays(a.positions, a.triangles);
+    mesh.prepare();
+    CHECK(mesh.info().vertex_count == a.positions.size());
+    CHECK(mesh.defects().nonmanifold_edges == 0);
+    CHECK(mesh.positions() == a.positions && mesh.triangles() == a.triangles);
+    CHECK(mesh.positions<float>(a.positions.size() - 1).size() == 1);
+
+    std::vector<float> heat(a.positions.size(), 2.0f);
+    mesh.add_attribute(HOLEFILL_ELEMENT_VERTEX, "heat", 1, heat);
+    const auto attributes = mesh.attributes(HOLEFILL_ELEMENT_VERTEX);
+    CHECK(attributes.size() == 1 && attributes[0].name == "heat" && attributes[0].components == 1);
+
+    CHECK(mesh.loop_count() == a.hole_count + 1 && mesh.loops().size() == a.hole_count + 1);
+    const uint64_t id = mesh.find_edge(a.hole_edge[0], a.hole_edge[1]);
+    const std::vector<uint64_t> loop = mesh.loop_vertices(id);
+    CHECK(loop.size() == mesh.loop(id).edge_count);
+    CHECK(mesh.find_vertices(loop) == std::vector<uint64_t>{id});
+    holefill::Selection holes;
+    holes.keep = {a.rim_edge};
+    CHECK(mesh.select(holes).size() == a.hole_count);
+
+    // Plans leave the mesh as it is and can be applied.
+    const holefill::Plan plan = mesh.plan_loop(id);
+    const holefill::Patch patch = plan.patch(id);
+    CHECK(patch.first_vertex == a.positions.size() && !patch.positions.empty() && !patch.triangles.empty());
+    CHECK(plan.report().hole(0).status == HOLEFILL_HOLE_FILLED);
+    CHECK(mesh.positions() == a.positions);
+    mesh.apply(plan);
+    const Points filled = mesh.positions(a.positions.size());
+    CHECK(filled == patch.positions);
+    for (const float value : mesh.attribute<float>(HOLEFILL_ELEMENT_VERTEX, 0, a.positions.size())) {
+        CHECK(value > 1.999f && value < 2.001f);
+    }
+    mesh.undo();
+    CHECK(mesh.positions() == a.positions && mesh.triangles() == a.triangles);
+    CHECK(mesh.plan_edge(a.hole_edge[0], a.hole_edge[1]).report().summary().filled == 1);
+    CHECK(mesh.plan_vertices(loop).report().summary().filled == 1);
+    CHECK(mesh.plan_loops(std::vector<uint64_t>{id}).report().summary().filled == 1);
+    CHECK(mesh.plan_selected(holes).report().summary().filled == a.hole_count);
+    CHECK(mesh.plan_all().report().summary().filled == a.hole_count + 1);
+
+    CHECK(mesh.fill_loop(id).summary().filled == 1);
+    mesh.undo();
+    CHECK(mesh.fill_edge(a.hole_edge[0], a.hole_edge[1]).summary().filled == 1);
+    mesh.undo();
+    CHECK(mesh.fill_vertices(loop).summary().filled == 1);
+    mesh.undo();
+    CHECK(mesh.fill_loops(std::vector<uint64_t>{id}).summary().filled == 1);
+    mesh.undo();
+
+    holefill::Options options;
+    uint64_t calls = 0, lines = 0;
+    options.method("fair-c2").seed(7).density(0.8).max_new_vertices(100000).threads(1).time_budget(100.0);
+    options.set("flat.exact-limit", "60");
+    options.on_progress([&](const HolefillProgress&) { return ++calls > 0; });
+    options.on_log([&](HolefillLogLevel, const char* message) { lines += message[0] != '\0'; });
+    const holefill::Report report = mesh.fill_selected(holes, options);
+    CHECK(report.summary().filled == a.hole_count && report.summary().kept == 1);
+    CHECK(report.holes().size() == a.hole_count + 1 && calls > 0 && lines > 0);
+    mesh.undo();
+    CHECK(mesh.fill_all().summary().filled == a.hole_count + 1);
+
+    holefill::Mesh moved = std::move(mesh);
+    CHECK(moved.loop_count() == a.hole_count + 1);
+    CHECK(status_of([&] { mesh.info(); }) == HOLEFILL_STATUS_INVALID_HANDLE);
+    mesh = std::move(moved);
+    CHECK(mesh.loop_count() == a.hole_count + 1);
+}
+
+void failures_are_exceptions() {
+    const Arrays a = arrays();
+    CHECK(status_of([&] {
+              holefill::Mesh::from_arrays(a.positions, Triangles{{0, 1, 1u << 30}});
+          }) == HOLEFILL_STATUS_INDEX_OUT_OF_RANGE);
+    holefill::Mesh mesh = holefill::Mesh::from_arrays(a.positions, a.triangles);
+    CHECK(status_of([&] { mesh.fill_loop(999); }) == HOLEFILL_STATUS_NOT_FOUND);
+    CHECK(status_of([&] { mesh.fill_all(holefill::Options().method("nonsense")); }) ==
+          HOLEFILL_STATUS_INVALID_ARGUMENT);
+    CHECK(status_of([&] { holefill::Options().set("nonsense", "1"); }) == HOLEFILL_STATUS_NOT_FOUND);
+    holefill::Options stop;
+    stop.on_progress([](const HolefillProgress&) { return false; });
+    CHECK(status_of([&] { mesh.fill_all(stop); }) == HOLEFILL_STATUS_CANCELLED);
+    CHECK(mesh.positions() == a.positions && mesh.triangles() == a.triangles);
+}
+
+struct Broken : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+void callbacks_may_throw() {
+    const Arrays a = arrays();
+    holefill::Mesh mesh = holefill::Mesh::from_arrays(a.positions, a.triangles);
+    for (const uint32_t threads : {1u, 2u}) {
+        for (int after = 0; after < 4; ++after) {
+            int calls = 0;
+            holefill::Options options;
+            options.threads(threads);
+            options.on_progress([&](const HolefillProgress&) {
+                if (calls++ == after) {
+                    throw Broken("from the callback");
+                }
+                return true;
+            });
+            bool is_caught = false;
+            try {
+                mesh.fill_all(options);
+            } catch (const Broken& e) {
+                is_caught = std::string(e.what()) == "from the callback";
+            }
+            CHECK(is_caught);
+            CHECK(mesh.positions() == a.positions && mesh.triangles() == a.triangles);
+        }
+    }
+    holefill::Options options;
+    options.on_log([](HolefillLogLevel, const char*) { throw Broken("from the log"); });
+    bool is_caught = false;
+    try {
+        mesh.fill_all(options);
+    } catch (const Broken&) {
+        is_caught = true;
+    }
+    CHECK(is_caught);
+}
+
+void polylines() {
+    Points points, normals;
+    for (int i = 0; i < 40; ++i) {
+        const double t = 6.283185307179586 * i / 40;
+        points.push_back({std::cos(t), std::sin(t), 0.0});
+        normals.push_back({0.6 * std::cos(t), 0.6 * std::sin(t), 0.8});
+    }
+    holefill::Mesh flat = holefill::Mesh::from_polyline(points);
+    CHECK(flat.fill_all().summary().filled == 1);
+    for (const auto& p : flat.positions()) {
+        CHECK(std::abs(p[2]) < 1e-9);
+    }
+    holefill::Mesh cap = holefill::Mesh::from_polyline(points, normals);
+    CHECK(cap.fill_all(holefill::Options().method("fair-c1")).summary().filled == 1);
+    double highest = 0.0;
+    for (const auto& p : cap.positions()) {
+        highest = std::max(highest, p[2]);
+    }
+    CHECK(highest > 0.1);
+}
+
+} // namespace
+
+int main() {
+    everything_once();
+    failures_are_exceptions();
+    callbacks_may_throw();
+    polylines();
+    CHECK(holefill_handle_count() == 0);
+    std::puts("wrapper: ok");
+    return 0;
+}

@@ -51,8 +51,10 @@ pub use mesh::attributes::{
 };
 pub use mesh::defects::{Defect, MeshDefects};
 pub use mesh::trimesh::TriMesh;
+pub use predict::grey::GreyOptions;
 pub use predict::hpde::options::{
     DeCrossover, DeMutation, HpdeOptions, HpdeProjection, HpdeSolver, HpdeTangents,
 };
+pub use predict::nurbs::NurbsOptions;
 pub use quality::deviation;
 pub use triangulate::unfold::{UnfoldOptions, UnfoldSolver, Unfolding, unfold_curve};

@@ -1,6 +1,8 @@
 //! The methods: each makes a patch from the shape of a hole, whatever happens to the patch afterwards.
 
+mod grey;
 mod hpde;
+mod nurbs;
 mod staircase;
 mod unfold;
 
@@ -41,6 +43,8 @@ impl<'a> PatchMaker<'a> {
     pub(crate) fn reach(method: Method) -> HoleReach {
         HoleReach::rings(match method {
             Method::Hpde => hpde::RING_COUNT,
+            Method::Grey => grey::RING_COUNT,
+            Method::Nurbs => nurbs::RING_COUNT,
             Method::FairC2 => 2,
             _ => 1,
         })
@@ -53,6 +57,8 @@ impl<'a> PatchMaker<'a> {
     pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
         match method {
             Method::Hpde => hpde::patch(self.hole, self.options, self.interrupted),
+            Method::Grey => grey::patch(self.hole, self.options, self.interrupted),
+            Method::Nurbs => nurbs::patch(self.hole, self.options, self.interrupted),
             Method::UnfoldArea | Method::UnfoldFairing => self.unfold.patch(method),
             _ => self.staircase.patch(method),
         }

@@ -1,7 +1,9 @@
 //! Options of a fill, and every parameter by its documented name.
 
 mod attributes;
+mod grey;
 mod hpde;
+mod nurbs;
 mod parameter;
 mod staircase;
 mod unfold;
@@ -11,7 +13,9 @@ pub use parameter::Parameter;
 
 use super::method::Method;
 use crate::error::{Error, ErrorKind, Result};
+use crate::predict::grey::GreyOptions;
 use crate::predict::hpde::options::HpdeOptions;
+use crate::predict::nurbs::NurbsOptions;
 use crate::triangulate::unfold::UnfoldOptions;
 use parameter::{number, switch, switch_name};
 
@@ -47,6 +51,10 @@ pub struct FillOptions {
     pub max_new_vertices: usize,
     /// Options of [`Method::Hpde`].
     pub hpde: HpdeOptions,
+    /// Options of [`Method::Grey`], which uses those of [`Method::Hpde`] besides.
+    pub grey: GreyOptions,
+    /// Options of [`Method::Nurbs`], which uses those of [`Method::Hpde`] besides.
+    pub nurbs: NurbsOptions,
     /// Seconds that a fill may take; holes that are not finished then fail with [`ErrorKind::Limit`] and are as
     /// they were. `None` (the default) sets no limit. Which holes are finished in time depends on the
     /// machine; a patch that is finished is the same as without a limit.
@@ -70,6 +78,8 @@ impl Default for FillOptions {
             grading: None,
             max_new_vertices: 10_000_000,
             hpde: HpdeOptions::default(),
+            grey: GreyOptions::default(),
+            nurbs: NurbsOptions::default(),
             time_budget: None,
             attributes: AttributeOptions::default(),
             unfold: UnfoldOptions::default(),
@@ -82,6 +92,8 @@ const GROUPS: &[&[Parameter]] = &[
     FILL,
     staircase::PARAMETERS,
     hpde::PARAMETERS,
+    grey::PARAMETERS,
+    nurbs::PARAMETERS,
     unfold::PARAMETERS,
     attributes::PARAMETERS,
 ];

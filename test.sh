@@ -73,7 +73,7 @@ fi
 
 say "tests"
 # With the output of tests that pass: it says what they left out.
-cargo test --locked --workspace -- --show-output 2>&1 | tee "$scratch/tests"
+HOLEFILL_HAMMER=10000 cargo test --locked --workspace -- --show-output 2>&1 | tee "$scratch/tests"
 
 say "documentation"
 RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps

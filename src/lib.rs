@@ -20,6 +20,7 @@
 #![deny(rustdoc::broken_intra_doc_links)]
 
 mod boundary;
+mod crease;
 mod error;
 mod fair;
 pub mod ffi;
@@ -33,6 +34,7 @@ mod mesh;
 mod patch;
 mod predict;
 mod quality;
+mod reconstruct;
 mod refine;
 mod triangulate;
 
@@ -41,10 +43,12 @@ pub use boundary::loops::{BoundaryLoop, BoundaryLoops};
 pub use boundary::select::Selection;
 pub use error::{Error, ErrorKind, Result};
 pub use fill::method::Method;
-pub use fill::options::{AttributeOptions, FillOptions, FilledAttributes, Interpolator, Parameter};
+pub use fill::options::{
+    AttributeOptions, AutoOptions, FillOptions, FilledAttributes, Interpolator, Parameter,
+};
 pub use fill::pipeline::fill_holes;
 pub use fill::progress::{Progress, ProgressCallback};
-pub use fill::report::{Attempt, FillReport, HoleReport, HoleStatus};
+pub use fill::report::{Attempt, FillReport, HoleReport, HoleStatus, Prediction};
 pub use fill::session::{FillPlan, FillSession, PlannedPatch, Target};
 pub use mesh::attributes::{
     Attribute, AttributeValues, Attributes, ListValues, ScalarType, ScalarValues,
@@ -55,6 +59,9 @@ pub use predict::grey::GreyOptions;
 pub use predict::hpde::options::{
     DeCrossover, DeMutation, HpdeOptions, HpdeProjection, HpdeSolver, HpdeTangents,
 };
+pub use predict::mls::{MlsDomain, MlsOptions, MlsUnit};
 pub use predict::nurbs::NurbsOptions;
+pub use predict::surface::candidates::Candidate;
 pub use quality::deviation;
+pub use reconstruct::{PointCloud, PointOptions, PointReport, mesh_from_points};
 pub use triangulate::unfold::{UnfoldOptions, UnfoldSolver, Unfolding, unfold_curve};

@@ -14,12 +14,13 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-const METHODS: [Method; 5] = [
+const METHODS: [Method; 6] = [
     Method::Flat,
     Method::Membrane,
     Method::FairC1,
     Method::FairC2,
     Method::Hpde,
+    Method::Mls,
 ];
 
 /// Cases in which a method may leave intersections of a patch, of those whose own truth has none.

@@ -318,3 +318,42 @@ fn collapsed_and_overlapping_triangles_give_finite_points_or_an_error() {
         }
     }
 }
+
+#[test]
+fn the_umbrella_vectors_of_the_unfolding_vanish() {
+    let sheet = fixtures::sheet(14, fixtures::waves).jittered(0.1, 8);
+    let (start, around) = disc(&sheet, [7.0, 7.0], 3.5);
+    let interior = start.rim_count..start.points.len();
+    assert!(interior.len() > 20);
+    let umbrellas = |domain: &Domain, values: &[Vec3]| -> Vec<Vec3> {
+        (0..domain.vertex_count())
+            .map(|v| {
+                let row = domain.row(v);
+                let sum: Vec3 = row.iter().map(|e| values[e.column as usize]).sum();
+                sum / row.len().max(1) as f64 - values[v]
+            })
+            .collect()
+    };
+    for (order, weights) in [
+        (Order::One, Weights::Uniform),
+        (Order::Two, Weights::Umbrella),
+    ] {
+        let mut surface = start.clone();
+        fair(
+            &mut surface,
+            &around,
+            order,
+            weights,
+            &mut SpdSolver::default(),
+        )
+        .unwrap();
+        let domain = Domain::new(&surface, &around, 1, weights, &|| false).unwrap();
+        let mut u = umbrellas(&domain, &domain.points);
+        if order == Order::Two {
+            u = umbrellas(&domain, &u);
+        }
+        for v in interior.clone() {
+            assert!(u[v].norm() < 1e-9, "{order:?} {v}: {}", u[v].norm());
+        }
+    }
+}

@@ -11,6 +11,7 @@ use super::types::{
     HOLEFILL_TYPE_U8, HOLEFILL_TYPE_U16, HOLEFILL_TYPE_U32, HOLEFILL_TYPE_U64, HolefillInput,
     HolefillOutput, HolefillType,
 };
+use rayon::prelude::*;
 use std::ffi::{CStr, c_char};
 use std::mem::{MaybeUninit, offset_of};
 use std::ops::Range;
@@ -351,6 +352,47 @@ fn room<T>(count: usize, what: &str) -> Result<Vec<T>, Failure> {
     }
 }
 
+/// Rows that one task copies: some hundred kilobytes, so that starting it costs nothing.
+const COPIED_ROWS: usize = 1 << 14;
+
+/// The address of the caller's memory, for several threads to read.
+#[derive(Clone, Copy)]
+struct Source(*const u8);
+
+// SAFETY: the memory is only read, and the caller promises that it stays as it is during the call.
+unsafe impl Sync for Source {}
+
+impl Source {
+    /// # Safety
+    /// As `pointer::add`.
+    unsafe fn add(&self, bytes: usize) -> *const u8 {
+        // SAFETY: the caller's promise.
+        unsafe { self.0.add(bytes) }
+    }
+}
+
+/// Fills an empty vector, which has room for them, with copies of rows without gaps. Several threads share the work:
+/// most of it is that memory is used for the first time.
+///
+/// # Safety
+/// Rows are as long as a `T`, and any bits are a `T`.
+unsafe fn copy_rows<T: Copy + Send>(rows: &Rows, values: &mut Vec<T>) {
+    let source = Source(rows.data.cast_const());
+    let room = &mut values.spare_capacity_mut()[..rows.count];
+    room.par_chunks_mut(COPIED_ROWS)
+        .enumerate()
+        .for_each(|(k, room)| {
+            // SAFETY: the chunk lies within the rows, which were checked; bytes need no alignment.
+            unsafe {
+                let from = source.add(k * COPIED_ROWS * size_of::<T>());
+                let to: *mut u8 = room.as_mut_ptr().cast();
+                std::ptr::copy_nonoverlapping(from, to, size_of_val(room));
+            }
+        });
+    // SAFETY: all of them were written just now.
+    unsafe { values.set_len(rows.count) };
+}
+
 /// Copies rows of three coordinates.
 ///
 /// # Safety
@@ -364,14 +406,8 @@ pub(super) unsafe fn read_points(
     let rows = Rows::check(view, 3, &[HOLEFILL_TYPE_F32, HOLEFILL_TYPE_F64], what)?;
     let mut points: Vec<[f64; 3]> = room(rows.count, what)?;
     if view.scalar_type == HOLEFILL_TYPE_F64 && rows.stride == size_of::<[f64; 3]>() {
-        // SAFETY: there is room for `count` points; as bytes they need no alignment, and any bits are numbers.
-        unsafe {
-            let to: *mut u8 = points.as_mut_ptr().cast();
-            if rows.count > 0 {
-                std::ptr::copy_nonoverlapping(rows.data, to, rows.count * rows.stride);
-            }
-            points.set_len(rows.count);
-        }
+        // SAFETY: the rows are as long as points, and any bits are numbers.
+        unsafe { copy_rows(&rows, &mut points) };
         return Ok(points);
     }
     // SAFETY: `i` is below the count and `k` below 3; any bits are numbers.
@@ -401,14 +437,8 @@ pub(super) unsafe fn read_indices<const N: usize>(
     let rows = Rows::check(view, N, &[HOLEFILL_TYPE_U32, HOLEFILL_TYPE_U64], what)?;
     let mut values: Vec<[u32; N]> = room(rows.count, what)?;
     if view.scalar_type == HOLEFILL_TYPE_U32 && rows.stride == size_of::<[u32; N]>() {
-        // SAFETY: as in `read_points`.
-        unsafe {
-            let to: *mut u8 = values.as_mut_ptr().cast();
-            if rows.count > 0 {
-                std::ptr::copy_nonoverlapping(rows.data, to, rows.count * rows.stride);
-            }
-            values.set_len(rows.count);
-        }
+        // SAFETY: the rows are as long as those of indices, and any bits are numbers.
+        unsafe { copy_rows(&rows, &mut values) };
         return Ok(values);
     }
     for i in 0..rows.count {

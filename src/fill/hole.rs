@@ -79,9 +79,9 @@ impl Hole {
                 format!("a loop of {} edges encloses no area", outer.edge_count()),
             ));
         }
-        let mut polygon = Polygon::of_loop(outer);
+        let mut polygon = Polygon::of_loop(mesh, outer);
         for island in islands {
-            polygon.join(mesh, Polygon::of_loop(island));
+            polygon.join(mesh, Polygon::of_loop(mesh, island));
         }
         let rim = distinct(&polygon.vertices);
         let rim_index = LocalIndex::new(rim.iter().zip(0..).map(|(&v, i)| (v, i)).collect());
@@ -146,14 +146,18 @@ impl Hole {
             .band(mesh, Reach::rings(reach.rings.max(1)))
             .surroundings;
         if reach.steps > 0.0 {
-            let reach = Reach {
-                rings: reach.rings,
-                distance: reach.steps * hole.shape.sampling_step() * scale,
-            };
-            hole.shape.surroundings = hole.band(mesh, reach).surroundings;
+            hole.shape.surroundings = hole.band(mesh, hole.in_mesh(reach)).surroundings;
         }
         hole.shape.edge_lengths = mean_edge_lengths(&hole.shape.points, &hole.shape.surroundings);
         Ok(hole)
+    }
+
+    /// The reach in units of the mesh.
+    pub(crate) fn in_mesh(&self, reach: HoleReach) -> Reach {
+        Reach {
+            rings: reach.rings,
+            distance: reach.steps * self.shape.sampling_step() * self.scale,
+        }
     }
 
     /// The triangles of `mesh` round the hole as far as `reach` says.
@@ -195,11 +199,22 @@ struct Polygon {
 }
 
 impl Polygon {
-    /// The loop run backwards: the triangles of the patch lie on the other side of it.
-    fn of_loop(l: &BoundaryLoop) -> Self {
+    /// The loop run backwards: the triangles of the patch lie on the other side of it. It begins where the loop is
+    /// farthest from its middle, wherever it began in the mesh.
+    fn of_loop(mesh: &TriMesh, l: &BoundaryLoop) -> Self {
         let n = l.vertices.len();
-        let vertices = (0..n).map(|i| l.vertices[(n - i) % n]).collect();
-        let halfedges = (0..n).map(|i| Some(l.halfedges[n - 1 - i])).collect();
+        let middle = l.vertices.iter().map(|&v| mesh.point(v)).sum::<Vec3>() / n as f64;
+        let distance = |i: usize| (mesh.point(l.vertices[i]) - middle).norm_squared();
+        let (mut first, mut farthest) = (0, 0.0);
+        for i in 0..n {
+            if distance(i) > farthest {
+                (first, farthest) = (i, distance(i));
+            }
+        }
+        let vertices = (0..n).map(|i| l.vertices[(first + n - i) % n]).collect();
+        let halfedges = (0..n)
+            .map(|i| Some(l.halfedges[(first + n - 1 - i) % n]))
+            .collect();
         Self {
             vertices,
             halfedges,

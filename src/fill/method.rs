@@ -8,9 +8,12 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Method {
-    /// The library's choice: at present [`Method::FairC1`].
+    /// Predicts the surface that was there: the surface that continues the surroundings best, chosen among
+    /// primitives and interpolating functions by predicting what is known.
     #[default]
     Auto,
+    /// The same with one interpolating function and no choice.
+    Curvature,
     /// Minimum-weight triangulation of the rim, without new vertices.
     Flat,
     /// Refined to the rim's density, then a membrane: continuous with the surroundings.
@@ -29,12 +32,15 @@ pub enum Method {
     UnfoldArea,
     /// The rim unfolded to the plane and triangulated there; refined, faired by the second-order umbrella.
     UnfoldFairing,
+    /// A height field fitted to the points round the hole by moving least squares, and resampled.
+    Mls,
 }
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::Auto,
+        Self::Curvature,
         Self::Flat,
         Self::Membrane,
         Self::FairC1,
@@ -44,6 +50,7 @@ impl Method {
         Self::Nurbs,
         Self::UnfoldArea,
         Self::UnfoldFairing,
+        Self::Mls,
     ];
 
     /// The name used on the command line and in reports.
@@ -51,6 +58,7 @@ impl Method {
     pub fn name(self) -> &'static str {
         match self {
             Self::Auto => "auto",
+            Self::Curvature => "curvature",
             Self::Flat => "flat",
             Self::Membrane => "membrane",
             Self::FairC1 => "fair-c1",
@@ -60,14 +68,25 @@ impl Method {
             Self::Nurbs => "nurbs",
             Self::UnfoldArea => "unfold-area",
             Self::UnfoldFairing => "unfold-fairing",
+            Self::Mls => "mls",
         }
+    }
+
+    /// Whether the method unfolds the rim, and so works only where the rim bounds a disk that nothing pierces.
+    pub(crate) fn unfolds(self) -> bool {
+        matches!(self, Self::UnfoldArea | Self::UnfoldFairing)
     }
 
     /// What the method does, in one line.
     #[must_use]
     pub fn summary(self) -> &'static str {
         match self {
-            Self::Auto => "the library's choice (at present fair-c1)",
+            Self::Auto => {
+                "predict the surface that was there: the best of many candidates, chosen by what is known"
+            }
+            Self::Curvature => {
+                "continue the surface by a function through the rim's points and normals"
+            }
             Self::Flat => "minimum-weight triangulation of the rim, no new vertices",
             Self::Membrane => {
                 "refine to the rim's density, then a membrane (meets the rim, may crease there)"
@@ -83,6 +102,7 @@ impl Method {
             Self::UnfoldFairing => {
                 "unfold the rim to the plane, triangulate there; refined and faired"
             }
+            Self::Mls => "fit heights round the hole by moving least squares, and resample them",
         }
     }
 }

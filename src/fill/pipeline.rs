@@ -7,6 +7,7 @@ use super::progress::{ProgressCallback, Watch};
 use super::report::{FillReport, HoleReport, HoleStatus};
 use super::stitch::{Outcome, Stitcher};
 use crate::boundary::classify::LoopClass;
+use crate::boundary::linked::LinkedLoops;
 use crate::boundary::loops::{BoundaryLoop, BoundaryLoops};
 use crate::boundary::select::Selection;
 use crate::error::{Error, ErrorKind, Result};
@@ -78,7 +79,7 @@ pub fn fill_holes(
     match index {
         Ok(index) => {
             let planned_at = mesh.triangles().len();
-            let planned = work.plan(mesh, &index, &holes);
+            let planned = work.plan(mesh, &index, &boundary.loops, &holes);
             work.stitch(mesh, &index, planned_at, &holes, planned, &mut report.holes);
         }
         Err(error) => {
@@ -117,15 +118,22 @@ pub(super) struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// Plans the patches of all holes on the unchanged mesh, in parallel.
+    /// Plans the patches of all holes on the unchanged mesh, whose boundary loops are `loops`, in parallel.
     pub(super) fn plan(
         &self,
         mesh: &TriMesh,
         index: &MeshIndex,
+        loops: &[BoundaryLoop],
         holes: &[HoleLoops<'_>],
     ) -> Vec<Planned> {
+        let methods = chain(self.options);
+        let unfolds = methods.first().is_some_and(|m| m.unfolds());
+        let links = unfolds.then(|| LinkedLoops::new(mesh, loops));
         self.plan_by(mesh, index, holes, |planner, hole| {
-            planner.plan(hole.outer, &hole.islands, &chain(self.options))
+            if let Some(links) = &links {
+                check_links(links, hole)?;
+            }
+            planner.plan(hole.outer, &hole.islands, &methods)
         })
     }
 
@@ -203,6 +211,18 @@ pub(super) struct HoleLoops<'a> {
     pub(super) islands: Vec<&'a BoundaryLoop>,
 }
 
+/// Fails when a rim of the hole is linked with another loop: no disk over it is free of intersections then.
+fn check_links(links: &LinkedLoops<'_>, hole: &HoleLoops<'_>) -> Result<()> {
+    let mut rims = std::iter::once(&hole.outer).chain(&hole.islands);
+    match rims.find_map(|l| Some((l.id, links.partner(l.id)?))) {
+        None => Ok(()),
+        Some((id, other)) => Err(Error::new(
+            ErrorKind::Knotted,
+            format!("loop {id} is linked with loop {other}, which pierces every disk over it"),
+        )),
+    }
+}
+
 /// The holes to fill: every loop of the ascending ids `chosen`, islands together with the loop that they lie in.
 ///
 /// Cost follows the chosen loops.
@@ -268,6 +288,7 @@ pub(super) fn blank_report(l: &BoundaryLoop, kept: &Option<String>) -> HoleRepor
         cause,
         method: None,
         tried: Vec::new(),
+        prediction: None,
         new_vertices: 0..0,
         new_triangles: 0..0,
         self_intersections: 0,

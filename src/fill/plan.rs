@@ -7,9 +7,8 @@ use super::index::MeshIndex;
 use super::method::Method;
 use super::methods::PatchMaker;
 use super::options::FillOptions;
-use super::report::Attempt;
-
-use super::verify::check_patch;
+use super::report::{Attempt, Prediction};
+use super::verify::{check_patch, farthest};
 use crate::boundary::loops::BoundaryLoop;
 use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::Vec3;
@@ -31,6 +30,8 @@ pub(crate) struct Plan {
     pub(crate) self_intersections: usize,
     pub(crate) min_angle: f64,
     pub(crate) attributes: CarriedAttributes,
+    /// How the surface was predicted, if a method did so.
+    pub(crate) prediction: Option<Prediction>,
 }
 
 impl Plan {
@@ -68,10 +69,7 @@ pub(crate) fn chain(options: &FillOptions) -> Vec<Method> {
         Method::Membrane,
         Method::Flat,
     ];
-    let first = match options.method {
-        Method::Auto => Method::FairC1,
-        method => method,
-    };
+    let first = options.method;
     let later: &[Method] = match first {
         _ if !options.fallback => &[],
         Method::UnfoldFairing => &[
@@ -81,6 +79,7 @@ pub(crate) fn chain(options: &FillOptions) -> Vec<Method> {
             Method::Flat,
         ],
         Method::UnfoldArea => &[Method::Membrane, Method::Flat],
+        Method::Mls => &[Method::FairC1, Method::Membrane, Method::Flat],
         _ => {
             let place = staircase.iter().position(|&m| m == first);
             &staircase[place.map_or(0, |i| i + 1)..]
@@ -101,7 +100,7 @@ pub(crate) struct Planner<'a> {
 impl Planner<'_> {
     /// Finds a patch for the hole that `outer` bounds together with its `islands`, by the first of `methods`
     /// whose patch passes every check and intersects nothing. If each one's intersects something, the one
-    /// with the fewest intersecting pairs is taken.
+    /// with the fewest intersecting pairs is taken, unless a method found the rim knotted.
     pub(crate) fn plan(
         &self,
         outer: &BoundaryLoop,
@@ -110,7 +109,7 @@ impl Planner<'_> {
     ) -> std::result::Result<Plan, Failure> {
         let reach = methods
             .iter()
-            .map(|&m| PatchMaker::reach(m))
+            .map(|&m| PatchMaker::reach(m, self.options))
             .fold(HoleReach::rings(1), HoleReach::union);
         match Hole::new(self.mesh, outer, islands, reach) {
             Ok(hole) => self.plan_hole(hole, methods),
@@ -128,6 +127,7 @@ impl Planner<'_> {
         let mut maker = PatchMaker::new(&hole.shape, self.options, self.interrupted);
         let mut best: Option<(Candidate, usize)> = None;
         let mut last_error = None;
+        let mut knotted = None;
         for &method in methods {
             let reason = match self.candidate(&hole, &mut maker, method) {
                 Ok(candidate) => {
@@ -148,21 +148,32 @@ impl Planner<'_> {
                 }
                 Err(error) => {
                     let reason = error.to_string();
+                    if error.kind() == ErrorKind::Knotted {
+                        knotted = Some(error.clone());
+                    }
                     last_error = Some(error);
                     reason
                 }
             };
             tried.push(Attempt { method, reason });
         }
+        // Every disk over a knotted rim meets itself: what does so here is no way out.
+        if knotted.is_some() {
+            best = best.filter(|(candidate, _)| candidate.intersections.total() == 0);
+        }
         let Some((candidate, position)) = best else {
-            let error = last_error
+            let error = knotted
+                .or(last_error)
                 .unwrap_or_else(|| Error::new(ErrorKind::InvalidInput, "no method was allowed"));
             return Err(Failure { error, tried });
         };
         if candidate.intersections.total() > 0 {
             tried.remove(position);
         }
-        self.finish(hole, candidate, tried)
+        let prediction = maker.prediction().cloned();
+        let mut plan = self.finish(hole, candidate, tried)?;
+        plan.prediction = prediction;
+        Ok(plan)
     }
 
     fn candidate(
@@ -172,7 +183,7 @@ impl Planner<'_> {
         method: Method,
     ) -> Result<Candidate> {
         let surface = maker.patch(method)?;
-        check_patch(hole, &surface, self.interrupted)?;
+        check_patch(hole, &surface, farthest(method), self.interrupted)?;
         proceed_unless(self.interrupted)?;
         let points: Vec<Vec3> = surface.points[surface.rim_count..]
             .iter()
@@ -210,7 +221,8 @@ impl Planner<'_> {
             mesh: self.mesh,
             hole: &hole,
             surface: &surface,
-            options: &self.options.attributes,
+            options: self.options,
+            method,
             interrupted: self.interrupted,
         };
         let attributes = match task.carry() {
@@ -232,6 +244,7 @@ impl Planner<'_> {
             self_intersections: intersections.total(),
             min_angle,
             attributes,
+            prediction: None,
         })
     }
 }

@@ -3,6 +3,7 @@
 use super::method::Method;
 use crate::boundary::classify::LoopClass;
 use crate::error::ErrorKind;
+use crate::predict::surface::candidates::Candidate;
 use std::ops::Range;
 
 /// How the filling of one hole ended.
@@ -41,6 +42,26 @@ pub struct Attempt {
     pub reason: String,
 }
 
+/// How the missing surface was predicted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prediction {
+    /// The candidate that was chosen.
+    pub chosen: Candidate,
+    /// Root mean square distance, in rim edge lengths, at which each candidate missed the rings round the hole when
+    /// it was fitted without them; see `docs/methods/auto.md`. Empty when nothing was compared.
+    pub scores: Vec<(Candidate, f64)>,
+    /// Standard deviation of the surroundings' vertices from smooth surfaces, in rim edge lengths.
+    pub noise: f64,
+    /// Whether the hole was taken for the missing tip of a horn.
+    pub is_tip: bool,
+    /// Number of creases in the patch; when there are any, `chosen` was not used.
+    pub crease_count: usize,
+    /// The surfaces between the creases, in the order in which the rim meets them.
+    pub crease_surfaces: Vec<Candidate>,
+    /// Why creases of the surroundings were not continued; `None` when they were, or when there are none.
+    pub without_creases: Option<String>,
+}
+
 /// What happened to one hole.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HoleReport {
@@ -64,6 +85,8 @@ pub struct HoleReport {
     pub method: Option<Method>,
     /// The other methods tried, in order.
     pub tried: Vec<Attempt>,
+    /// How the surface was predicted, when a method did so; `method` says whether the prediction stands.
+    pub prediction: Option<Prediction>,
     /// New vertices, as a range of indices into the filled mesh.
     pub new_vertices: Range<u32>,
     /// New triangles, as a range of indices into the filled mesh.

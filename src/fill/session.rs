@@ -342,7 +342,7 @@ impl FillSession {
                     let failure = Failure::from(watch.explain(error));
                     vec![(Err(failure), 0.0); holes.len()]
                 }
-                (Ok(index), None) => work.plan(&self.mesh, index, &holes),
+                (Ok(index), None) => work.plan(&self.mesh, index, &self.boundary().loops, &holes),
                 (Ok(index), Some(normals)) => {
                     work.plan_by(&self.mesh, index, &holes, |planner, _| {
                         let hole = Hole::of_polyline(self.mesh.points(), normals.as_deref())?;

@@ -6,7 +6,7 @@ use super::method::Method;
 use super::options::FillOptions;
 use super::pipeline::HoleLoops;
 use super::plan::{Failure, Plan, Planner, chain};
-use super::report::{Attempt, HoleReport, HoleStatus};
+use super::report::{Attempt, HoleReport, HoleStatus, Prediction};
 use super::verify::check_against_mesh;
 use crate::error::{Error, ErrorKind};
 use crate::math::Vec3;
@@ -41,6 +41,7 @@ pub(super) struct Outcome {
     cause: Option<ErrorKind>,
     tried: Vec<Attempt>,
     filled: Option<Filled>,
+    prediction: Option<Prediction>,
 }
 
 struct Filled {
@@ -265,6 +266,7 @@ impl<'a> Stitcher<'a> {
             cause: None,
             filled: Some(Filled::new(&plan, vertices, faces)),
             tried: plan.tried,
+            prediction: plan.prediction,
         }
     }
 }
@@ -291,6 +293,7 @@ impl Outcome {
             reason: String::new(),
             cause: None,
             tried: plan.tried.clone(),
+            prediction: plan.prediction.clone(),
             filled: Some(Filled::new(plan, vertices, triangles)),
         }
     }
@@ -306,6 +309,7 @@ impl Outcome {
             cause: Some(error.kind()),
             tried,
             filled: None,
+            prediction: None,
         }
     }
 
@@ -346,6 +350,7 @@ impl Outcome {
         }
         report.tried.clone_from(&self.tried);
         report.seconds = seconds;
+        report.prediction.clone_from(&self.prediction);
         if let Some(filled) = &self.filled {
             report.method = Some(filled.method);
             report.new_vertices = filled.new_vertices.clone();

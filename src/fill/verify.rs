@@ -1,6 +1,7 @@
 //! Whether a patch may be used: the checks that every filled hole has passed.
 
 use super::hole::Hole;
+use super::method::Method;
 use crate::error::{Error, Result, proceed_unless};
 use crate::math::aabb::Aabb;
 use crate::math::cross_normal;
@@ -15,8 +16,20 @@ const SMALLEST_DOUBLE_AREA: f64 = 2e-10;
 /// A patch that goes further from the middle of its rim than this many diameters of the rim has run away: half a
 /// sphere goes 0.35, two thirds of one 0.61.
 const FARTHEST: f64 = 0.75;
+/// The same for a patch on a predicted surface, which has passed gates of its own: the missing end of a horn is
+/// several times as long as its rim is wide.
+const FARTHEST_PREDICTED: f64 = 3.0;
 
-/// Checks the patch by itself and against the rim.
+/// How far a patch of `method` may go from the middle of its rim, in diameters of the rim.
+pub(crate) fn farthest(method: Method) -> f64 {
+    match method {
+        Method::Auto | Method::Curvature => FARTHEST_PREDICTED,
+        _ => FARTHEST,
+    }
+}
+
+/// Checks the patch by itself and against the rim, from whose middle it must not go further than `farthest`
+/// diameters of the rim.
 ///
 /// Every rim edge must have one triangle, which runs along it as the polygon does; every other edge two
 /// triangles of opposite direction, and no counterpart in the mesh; no triangle may be degenerate or
@@ -29,6 +42,7 @@ const FARTHEST: f64 = 0.75;
 pub(crate) fn check_patch(
     hole: &Hole,
     surface: &PatchSurface,
+    farthest: f64,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<()> {
     if let Some(v) = surface
@@ -39,7 +53,7 @@ pub(crate) fn check_patch(
         return Err(Error::geometry(format!("new vertex {v} is not finite")));
     }
     let rim = Aabb::around(&hole.shape.points);
-    let limit = FARTHEST * (rim.hi - rim.lo).norm();
+    let limit = farthest * (rim.hi - rim.lo).norm();
     let middle = (rim.hi + rim.lo) / 2.0;
     if surface.points.iter().any(|p| (p - middle).norm() > limit) {
         return Err(Error::geometry(

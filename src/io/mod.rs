@@ -1,4 +1,4 @@
-//! Mesh files as plain arrays: PLY, OBJ, OFF and STL.
+//! Mesh files as plain arrays: PLY, OBJ, OFF and STL; points also from XYZ.
 //!
 //! [`read`] and [`write()`] choose the format by the file's extension. A read keeps every vertex and
 //! triangle in the order of the file, and what a format can say about them is kept as
@@ -15,6 +15,7 @@ mod ply;
 mod polygons;
 mod stl;
 mod text;
+mod xyz;
 
 pub use atomic::{check_destination, is_same_destination, replace};
 pub use ply::{PlyDetails, PlyElement, PlyEncoding};
@@ -146,6 +147,14 @@ pub fn check_extension(path: impl AsRef<Path>) -> Result<()> {
     Format::of(path.as_ref()).map(|_| ())
 }
 
+/// Whether `path` ends in `.xyz` or `.txt`, the extensions of files of points.
+fn is_xyz(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default();
+    ["xyz", "txt"]
+        .iter()
+        .any(|known| extension.eq_ignore_ascii_case(known))
+}
+
 /// Reads the mesh file at `path`.
 ///
 /// # Errors
@@ -159,13 +168,50 @@ pub fn check_extension(path: impl AsRef<Path>) -> Result<()> {
 pub fn read(path: impl AsRef<Path>) -> Result<MeshData> {
     let path = path.as_ref();
     let format = Format::of(path)?;
+    read_as(path, |bytes| format.parse(bytes))
+}
+
+/// Reads the points of the file at `path`: the vertices of a mesh file, with their attributes, or a text file
+/// of points, `.xyz` or `.txt`, with 3, 6 or 9 numbers a line: position, normal, color. Normals become the
+/// attributes `nx`, `ny`, `nz`, colors `red`, `green`, `blue`. The result has no triangles; a note says how many
+/// were left out.
+///
+/// # Errors
+/// As [`read`].
+///
+/// # Complexity
+/// As [`read`].
+pub fn read_points(path: impl AsRef<Path>) -> Result<MeshData> {
+    let path = path.as_ref();
+    if is_xyz(path) {
+        return read_as(path, xyz::parse);
+    }
+    let format = Format::of(path).map_err(|_| {
+        Error::invalid(format!(
+            "{}: unknown file type; points are read from .ply, .xyz, .txt, .obj, .off and .stl",
+            path.display()
+        ))
+    })?;
+    let mut data = read_as(path, |bytes| format.parse(bytes))?;
+    if !data.triangles.is_empty() {
+        data.notes.push(format!(
+            "{} triangles left out: only the points are used",
+            data.triangles.len()
+        ));
+        data.triangles = Vec::new();
+        data.face_attributes = Attributes::new(0);
+    }
+    Ok(data)
+}
+
+fn read_as(path: &Path, parse: impl FnOnce(&[u8]) -> Result<MeshData>) -> Result<MeshData> {
     let bytes = std::fs::read(path).map_err(|error| {
         Error::new(
             ErrorKind::Io,
             format!("cannot read {}: {error}", path.display()),
         )
     })?;
-    format.parse(&bytes).map_err(|error| {
+    parse(&bytes).map_err(|error| {
         Error::new(
             error.kind(),
             format!("{}: {}", path.display(), error.message()),

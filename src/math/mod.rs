@@ -4,6 +4,7 @@ pub(crate) mod aabb;
 mod background;
 pub(crate) mod box_tree;
 mod envelope;
+pub(crate) mod least_squares;
 pub(crate) mod plane;
 pub(crate) mod random;
 pub(crate) mod segments;

@@ -9,9 +9,12 @@
 //! Not guaranteed: the same triangles in another numbering where four vertices lie on a circle.
 
 use super::simple_polygon::{Point2, find_contact, is_counter_clockwise};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use spade::handles::{FixedFaceHandle, FixedVertexHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, Triangulation, mitigate_underflow};
+
+/// Points between two questions whether to stop: about a millisecond.
+const INSERTIONS_PER_CHECK: usize = 1024;
 
 type Delaunay = ConstrainedDelaunayTriangulation<spade::Point2<f64>>;
 
@@ -27,9 +30,25 @@ type Delaunay = ConstrainedDelaunayTriangulation<spade::Point2<f64>>;
 /// the polygon is not simple (decided exactly), or an interior point lies outside of it, on it, or on another
 /// interior point.
 pub(crate) fn triangulate_planar(polygon: &[Point2], interior: &[Point2]) -> Result<Vec<[u32; 3]>> {
-    let (m, k) = (polygon.len(), interior.len());
-    let points: Vec<spade::Point2<f64>> = polygon
+    triangulate_planar_region(&[polygon], interior, &|| false)
+}
+
+/// The same between an outer polygon, the first, and polygons inside of it, which turn the other way.
+///
+/// Triangles index the vertices of all polygons, one after the other, and then the interior points. There are
+/// `m - 2 + 2 k + 2 h` for `m` polygon vertices, `k` interior points and `h` inner polygons.
+///
+/// # Errors
+/// Those of [`triangulate_planar`]; [`ErrorKind::Geometry`] also when two polygons meet or one lies outside the
+/// first; [`ErrorKind::Cancelled`].
+pub(crate) fn triangulate_planar_region(
+    polygons: &[impl AsRef<[Point2]>],
+    interior: &[Point2],
+    interrupted: &dyn Fn() -> bool,
+) -> Result<Vec<[u32; 3]>> {
+    let points: Vec<spade::Point2<f64>> = polygons
         .iter()
+        .flat_map(|polygon| polygon.as_ref())
         .chain(interior)
         // Coordinates next to zero would make the predicates inexact.
         .map(|p| mitigate_underflow(spade::Point2::new(p[0], p[1])))
@@ -37,29 +56,57 @@ pub(crate) fn triangulate_planar(polygon: &[Point2], interior: &[Point2]) -> Res
     if !points.iter().all(|p| p.x.is_finite() && p.y.is_finite()) {
         return Err(invalid("a point of the plane is not finite".to_owned()));
     }
-    let rim: Vec<Point2> = points[..m].iter().map(|p| [p.x, p.y]).collect();
-    if let Some((i, j)) = find_contact(&rim) {
-        return Err(geometry(format!(
-            "edges {i} and {j} of a polygon of {m} vertices meet in the plane"
-        )));
+    let (m, k) = (points.len() - interior.len(), interior.len());
+    let mut edges: Vec<(usize, usize)> = Vec::with_capacity(m);
+    let mut is_outer_ccw = true;
+    for (h, polygon) in polygons.iter().enumerate() {
+        let first = edges.len();
+        let n = polygon.as_ref().len();
+        let rim: Vec<Point2> = points[first..first + n]
+            .iter()
+            .map(|p| [p.x, p.y])
+            .collect();
+        if let Some((i, j)) = find_contact(&rim) {
+            return Err(geometry(format!(
+                "edges {i} and {j} of a polygon of {n} vertices meet in the plane"
+            )));
+        }
+        if h == 0 {
+            is_outer_ccw = is_counter_clockwise(&rim);
+        } else if is_counter_clockwise(&rim) == is_outer_ccw {
+            let message = "an inner polygon turns like the outer one";
+            return Err(geometry(message.to_owned()));
+        }
+        edges.extend((0..n).map(|i| (first + i, first + (i + 1) % n)));
     }
 
     let mut delaunay = Delaunay::new();
     let mut vertices = Vec::with_capacity(m + k);
-    for &p in &points {
+    for (i, &p) in points.iter().enumerate() {
+        if i.is_multiple_of(INSERTIONS_PER_CHECK) {
+            proceed_unless(interrupted)?;
+        }
         let vertex = delaunay.insert(p);
         vertices.push(vertex.map_err(|e| invalid(format!("a point cannot be used: {e}")))?);
     }
     if delaunay.num_vertices() < m + k {
         return Err(geometry("two points of the plane coincide".to_owned()));
     }
-    for i in 0..m {
-        delaunay.try_add_constraint(vertices[i], vertices[(i + 1) % m]);
+    // With the inside on the left.
+    let edges: Vec<(FixedVertexHandle, FixedVertexHandle)> = edges
+        .into_iter()
+        .map(|(a, b)| if is_outer_ccw { (a, b) } else { (b, a) })
+        .map(|(a, b)| (vertices[a], vertices[b]))
+        .collect();
+    for &(a, b) in &edges {
+        if delaunay.try_add_constraint(a, b).is_empty() && polygons.len() > 1 {
+            return Err(geometry("two polygons meet in the plane".to_owned()));
+        }
     }
-    let triangles = inner_triangles(&delaunay, &vertices[..m], is_counter_clockwise(&rim));
+    let triangles = inner_triangles(&delaunay, &edges, is_outer_ccw);
     // A constraint through an interior point is cut in two there, so it leads no fill inside; a point
     // outside adds no triangle inside.
-    if triangles.len() != m - 2 + 2 * k {
+    if triangles.len() + 2 != m + 2 * k + 2 * (polygons.len() - 1) {
         return Err(geometry(
             "a point to be inside the polygon lies outside or on it".to_owned(),
         ));
@@ -67,17 +114,15 @@ pub(crate) fn triangulate_planar(polygon: &[Point2], interior: &[Point2]) -> Res
     Ok(triangles)
 }
 
-/// The triangles inside the rim, found from its edges inwards. Vertices have the numbers of their insertion.
+/// The triangles inside the rim, found inwards from its edges, which have it on their left. Vertices have the numbers of their insertion.
 fn inner_triangles(
     delaunay: &Delaunay,
-    rim: &[FixedVertexHandle],
+    edges: &[(FixedVertexHandle, FixedVertexHandle)],
     is_counter_clockwise: bool,
 ) -> Vec<[u32; 3]> {
     let mut is_inside = vec![false; delaunay.num_all_faces()];
     let mut open: Vec<FixedFaceHandle<InnerTag>> = Vec::new();
-    for (i, &a) in rim.iter().enumerate() {
-        let b = rim[(i + 1) % rim.len()];
-        let (from, to) = if is_counter_clockwise { (a, b) } else { (b, a) };
+    for &(from, to) in edges {
         let edge = delaunay.get_edge_from_neighbors(from, to);
         let face = edge.and_then(|e| e.face().as_inner());
         if let Some(face) = face.filter(|f| !is_inside[f.index()]) {
@@ -275,5 +320,53 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn an_inner_polygon_stays_open() {
+        let outer = star(&[2.0; 24]);
+        let mut inner = star(&[1.0; 12]);
+        inner.reverse();
+        let interior: Vec<Point2> = star(&[1.5; 17]);
+        for is_reversed in [false, true] {
+            let mut polygons = [outer.clone(), inner.clone()];
+            if is_reversed {
+                polygons.iter_mut().for_each(|p| p.reverse());
+            }
+            let triangles = triangulate_planar_region(&polygons, &interior, &|| false).unwrap();
+            assert_eq!(triangles.len(), 36 - 2 + 2 * 17 + 2);
+            let points: Vec<Point2> = polygons
+                .iter()
+                .flatten()
+                .chain(&interior)
+                .copied()
+                .collect();
+            let doubled = |t: &[u32; 3]| {
+                let [a, b, c] = t.map(|v| points[v as usize]);
+                turn(a, b, c)
+            };
+            assert!(triangles.iter().all(|t| (doubled(t) < 0.0) == is_reversed));
+            let ring = 12.0 * 4.0 * (TAU / 24.0).sin() - 6.0 * (TAU / 12.0).sin();
+            let area: f64 = triangles.iter().map(|t| doubled(t).abs() / 2.0).sum();
+            assert!((area - ring).abs() < 1e-9, "{area} {ring}");
+        }
+    }
+
+    #[test]
+    fn inner_polygons_that_meet_lie_outside_or_turn_wrongly_are_errors() {
+        let outer = star(&[2.0; 24]);
+        let mut inner = star(&[1.0; 12]);
+        let cases = |inner: &[Point2], shift: f64| {
+            let moved = inner.iter().map(|p| [p[0] + shift, p[1]]).collect();
+            triangulate_planar_region(&[outer.clone(), moved], &[], &|| false)
+        };
+        assert!(cases(&inner, 0.0).is_err());
+        inner.reverse();
+        assert!(cases(&inner, 0.0).is_ok());
+        for shift in [1.5, 10.0] {
+            assert!(cases(&inner, shift).is_err());
+        }
+        let error = triangulate_planar_region(&[outer], &[], &|| true).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Cancelled);
     }
 }

@@ -28,7 +28,7 @@ const RULES: &[(&str, &[&str])] = &[
     ("mesh::defects", &["error"]),
     ("mesh", &["error", "math"]),
     ("boundary", &["error", "math", "mesh"]),
-    ("crease", &["error", "math", "mesh"]),
+    ("crease", &["error", "math", "mesh", "patch"]),
     ("quality", &["error", "math", "mesh"]),
     ("patch", &["error", "math", "mesh"]),
     // What makes a patch knows nothing of loops, of the pipeline, of its judges or of each other.
@@ -37,7 +37,7 @@ const RULES: &[(&str, &[&str])] = &[
     ("fair", &["error", "math", "mesh", "patch"]),
     (
         "predict",
-        &["error", "math", "mesh", "patch", "triangulate"],
+        &["error", "math", "mesh", "patch", "crease", "triangulate"],
     ),
     (
         "fill",
@@ -55,12 +55,21 @@ const RULES: &[(&str, &[&str])] = &[
             "fair",
         ],
     ),
+    // From points to a mesh: before there are loops to fill.
+    ("reconstruct", &["error", "math", "mesh"]),
     // Plain arrays in and out.
     ("io", &["error", "math", "mesh::attributes"]),
     (
         "ffi",
         &[
-            "error", "math", "mesh", "boundary", "quality", "patch", "fill",
+            "error",
+            "math",
+            "mesh",
+            "boundary",
+            "quality",
+            "patch",
+            "fill",
+            "reconstruct",
         ],
     ),
 ];

@@ -25,6 +25,8 @@ Exit status: 0 done; 1 a file cannot be read or written; 2 bad usage; 3 some hol
 pub(crate) enum Command {
     /// Fill the holes of a mesh
     Fill(FillArgs),
+    /// Make a mesh from points
+    Points(PointsArgs),
     /// List the boundary loops of a mesh
     Inspect(InspectArgs),
     /// Measure how far two meshes are apart
@@ -41,6 +43,33 @@ pub(crate) struct FillArgs {
     /// Appears whole or not at all; may be INPUT itself, which is then replaced
     #[arg(short, long, verbatim_doc_comment)]
     pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) how: FillHow,
+    /// Threads to fill with, at most 1024, 0 for as many as there are processors;
+    /// the result does not depend on it
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        verbatim_doc_comment,
+        value_name = "N",
+        default_value_t = 0,
+        value_parser = clap::value_parser!(u16).range(..=1024)
+    )]
+    pub(crate) threads: u16,
+    /// Also write what happened to each hole, as JSON (seconds, degrees)
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) report: Option<PathBuf>,
+    /// Also draw the mesh before and after, patches in orange
+    #[arg(long, value_name = "FILE.png")]
+    pub(crate) preview: Option<PathBuf>,
+    /// Print nothing but errors
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+/// Which holes are filled, and how.
+#[derive(Debug, Default, Args)]
+pub(crate) struct FillHow {
     /// How to fill; the methods are listed below
     #[arg(long, value_name = "NAME", default_value_t, value_parser = Method::from_str)]
     pub(crate) method: Method,
@@ -76,7 +105,46 @@ pub(crate) struct FillArgs {
         default_value_t = 0
     )]
     pub(crate) seed: u64,
-    /// Threads to fill with, at most 1024, 0 for as many as there are processors;
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PointsArgs {
+    /// Points: a .ply (with or without normals and colors), .xyz or .txt (3, 6 or 9 numbers a line:
+    /// position, normal, color) file, or the vertices of a .obj, .off or .stl file
+    #[arg(verbatim_doc_comment)]
+    pub(crate) input: PathBuf,
+    /// Mesh: the points of INPUT, unchanged and in order, with triangles.
+    /// Appears whole or not at all; may be INPUT itself, which is then replaced
+    #[arg(short, long, verbatim_doc_comment)]
+    pub(crate) output: PathBuf,
+    /// Largest radius of the circle through the corners of a triangle, in units of the
+    /// file; larger holes stay open [default: from the spacing of the points]
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        value_name = "R",
+        value_parser = parse_radius,
+        verbatim_doc_comment
+    )]
+    pub(crate) radius: Option<f64>,
+    /// How many of the nearest points each point chooses its triangles from
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        value_name = "N",
+        default_value = "24",
+        value_parser = clap::value_parser!(u16).range(6..=200)
+    )]
+    pub(crate) neighbours: u16,
+    /// Estimate the normals even if INPUT has them
+    #[arg(long)]
+    pub(crate) ignore_normals: bool,
+    /// Then fill the holes; the options of `holefill fill` below tell which and how
+    #[arg(long)]
+    pub(crate) fill: bool,
+    #[command(flatten)]
+    pub(crate) how: FillHow,
+    /// Threads to work with, at most 1024, 0 for as many as there are processors;
     /// the result does not depend on it
     #[arg(
         long,
@@ -87,16 +155,25 @@ pub(crate) struct FillArgs {
         value_parser = clap::value_parser!(u16).range(..=1024)
     )]
     pub(crate) threads: u16,
-    /// Also write what happened to each hole, as JSON (seconds, degrees)
+    /// Also write what became of the points, and of the holes, as JSON
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,
-    /// Also draw the mesh before and after, patches in orange
-    #[arg(long, value_name = "FILE.png")]
-    pub(crate) preview: Option<PathBuf>,
     /// Print nothing but errors
     #[arg(long)]
     pub(crate) quiet: bool,
 }
+
+/// The options of [`FillHow`], which `points` takes only with `--fill`.
+const FILL_HOW: [&str; 8] = [
+    "method",
+    "keep",
+    "only",
+    "max_edges",
+    "max_perimeter",
+    "keep_largest",
+    "set",
+    "seed",
+];
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -140,12 +217,29 @@ pub(crate) struct DemoArgs {
 
 /// Reads the command line.
 pub(crate) fn parse() -> Result<Command, clap::Error> {
-    let mut command =
-        Cli::command().mut_subcommand("fill", |fill| fill.after_help(methods_and_parameters()));
+    let mut command = command();
     let matches = command.try_get_matches_from_mut(std::env::args_os())?;
     Cli::from_arg_matches(&matches)
         .map(|cli| cli.command)
         .map_err(|e| e.format(&mut command))
+}
+
+fn command() -> clap::Command {
+    let fill_example =
+        "Example: holefill fill scan.ply -o closed.ply --keep-largest 1 --report closed.json";
+    let points_example = "Example: holefill points scan.xyz -o closed.ply --fill --keep-largest 1";
+    Cli::command()
+        .mut_subcommand("fill", |fill| {
+            fill.after_help(methods_and_parameters(fill_example))
+        })
+        .mut_subcommand("points", |points| {
+            FILL_HOW
+                .into_iter()
+                .fold(points, |points, id| {
+                    points.mut_arg(id, |arg| arg.requires("fill"))
+                })
+                .after_help(methods_and_parameters(points_example))
+        })
 }
 
 /// Prints what [`parse`] could not go on with: help that was asked for, or an error.
@@ -172,6 +266,13 @@ fn parse_edge(text: &str) -> Result<[u32; 2], String> {
     vertices.ok_or_else(|| "an edge is two vertex numbers with a comma, such as 17,42".to_owned())
 }
 
+fn parse_radius(text: &str) -> Result<f64, String> {
+    let radius = text.parse().ok();
+    radius
+        .filter(|&radius: &f64| radius > 0.0 && radius.is_finite())
+        .ok_or_else(|| "a radius is a positive number".to_owned())
+}
+
 fn parse_setting(text: &str) -> Result<(String, String), String> {
     let pair = text
         .split_once('=')
@@ -184,7 +285,7 @@ fn parse_setting(text: &str) -> Result<(String, String), String> {
     Ok((key, value))
 }
 
-fn methods_and_parameters() -> String {
+fn methods_and_parameters(example: &str) -> String {
     let mut text = String::from("Methods:\n");
     let width = Method::ALL
         .iter()
@@ -206,10 +307,7 @@ fn methods_and_parameters() -> String {
         let value = parameter.value(&defaults);
         let _ = writeln!(text, "  {name}: {help}\n      {allowed} [default: {value}]");
     }
-    let _ = write!(text, "\n{EXIT_STATUS}\n\n");
-    text.push_str(
-        "Example: holefill fill scan.ply -o closed.ply --keep-largest 1 --report closed.json",
-    );
+    let _ = write!(text, "\n{EXIT_STATUS}\n\n{example}");
     text
 }
 
@@ -219,7 +317,7 @@ mod tests {
 
     #[test]
     fn the_command_line_is_consistent() {
-        Cli::command().debug_assert();
+        command().debug_assert();
     }
 
     #[test]
@@ -238,6 +336,27 @@ mod tests {
         ] {
             assert!(parse_edge(text).is_err(), "{text}");
         }
+    }
+
+    #[test]
+    fn a_radius_is_positive_and_finite() {
+        assert_eq!(parse_radius("0.25"), Ok(0.25));
+        for text in ["", "0", "-1", "nan", "inf", "1e999", "1 2", "1,5"] {
+            assert!(parse_radius(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn the_default_number_of_neighbours_is_that_of_the_library() {
+        let line = ["holefill", "points", "a.ply", "-o", "b.ply"];
+        let Ok(cli) = Cli::try_parse_from(line) else {
+            panic!("not understood");
+        };
+        let Command::Points(args) = cli.command else {
+            panic!("not the command");
+        };
+        let expected = holefill::PointOptions::default().neighbours;
+        assert_eq!(usize::from(args.neighbours), expected);
     }
 
     #[test]

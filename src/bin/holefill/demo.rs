@@ -1,9 +1,8 @@
 //! `holefill demo`: a damaged model made here, filled like any other.
 
-use crate::args::{DemoArgs, FillArgs};
+use crate::args::{DemoArgs, FillArgs, FillHow};
 use crate::model::damaged_knot;
 use crate::{Failure, Outcome, console, fill};
-use holefill::Method;
 use holefill::io::{self, MeshData};
 use std::fs;
 
@@ -18,14 +17,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Outcome, Failure> {
     let fill = FillArgs {
         input: damaged,
         output: dir.join("filled.ply"),
-        method: Method::default(),
-        keep: Vec::new(),
-        only: Vec::new(),
-        max_edges: None,
-        max_perimeter: None,
-        keep_largest: 0,
-        set: Vec::new(),
-        seed: 0,
+        how: FillHow::default(),
         threads: 0,
         report: Some(dir.join("report.json")),
         preview: Some(dir.join("preview.png")),

@@ -1,6 +1,6 @@
 //! `holefill fill`: reads a mesh, fills its holes, writes it.
 
-use crate::args::FillArgs;
+use crate::args::{FillArgs, FillHow};
 use crate::input::{LoadSeconds, Loaded, seconds_since};
 use crate::preview::Scene;
 use crate::report::FillFacts;
@@ -17,10 +17,15 @@ use std::path::Path;
 use std::time::Instant;
 
 pub(crate) fn run(args: &FillArgs) -> Result<Outcome, Failure> {
-    check_destinations(args)?;
-    let options = options(args)?;
+    let extra: Vec<&Path> = [&args.report, &args.preview]
+        .into_iter()
+        .flatten()
+        .map(|path| path.as_path())
+        .collect();
+    check_destinations(&args.input, &args.output, &extra)?;
+    let options = options(&args.how, args.threads)?;
     limit_threads(options.threads)?;
-    let selection = selection(args)?;
+    let selection = selection(&args.how)?;
 
     let Loaded {
         mut mesh,
@@ -68,16 +73,16 @@ pub(crate) fn run(args: &FillArgs) -> Result<Outcome, Failure> {
     Ok(Outcome::SomeFailed)
 }
 
-/// Refuses destinations that cannot work, before minutes are spent.
-fn check_destinations(args: &FillArgs) -> Result<(), Failure> {
-    io::check_extension(&args.output).map_err(|e| Failure::usage(e.to_string()))?;
-    let extra: Vec<&Path> = [&args.report, &args.preview]
-        .into_iter()
-        .flatten()
-        .map(|path| path.as_path())
-        .collect();
+/// Refuses destinations that cannot work, before minutes are spent: those of the mesh and of what is written
+/// `extra`.
+pub(crate) fn check_destinations(
+    input: &Path,
+    output: &Path,
+    extra: &[&Path],
+) -> Result<(), Failure> {
+    io::check_extension(output).map_err(|e| Failure::usage(e.to_string()))?;
     for (i, path) in extra.iter().enumerate() {
-        let others = [args.input.as_path(), args.output.as_path()];
+        let others = [input, output];
         let mut others = others.iter().chain(&extra[..i]);
         if let Some(other) = others.find(|other| io::is_same_destination(path, other)) {
             return Err(Failure::usage(format!(
@@ -87,26 +92,26 @@ fn check_destinations(args: &FillArgs) -> Result<(), Failure> {
             )));
         }
     }
-    for path in std::iter::once(args.output.as_path()).chain(extra) {
+    for path in std::iter::once(&output).chain(extra) {
         io::check_destination(path).map_err(|e| Failure::file(e.to_string()))?;
     }
     Ok(())
 }
 
 /// Keeps all parallel work, that of reading in the mesh included, to this many threads; 0 is no limit.
-fn limit_threads(threads: usize) -> Result<(), Failure> {
+pub(crate) fn limit_threads(threads: usize) -> Result<(), Failure> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build_global()
         .map_err(|e| Failure::file(format!("cannot start {threads} threads: {e}")))
 }
 
-fn options(args: &FillArgs) -> Result<FillOptions, Failure> {
+pub(crate) fn options(how: &FillHow, threads: u16) -> Result<FillOptions, Failure> {
     let mut options = FillOptions::default();
-    options.method = args.method;
-    options.seed = args.seed;
-    options.threads = args.threads.into();
-    for (key, value) in &args.set {
+    options.method = how.method;
+    options.seed = how.seed;
+    options.threads = threads.into();
+    for (key, value) in &how.set {
         options
             .set(key, value)
             .map_err(|e| Failure::usage(e.to_string()))?;
@@ -114,13 +119,13 @@ fn options(args: &FillArgs) -> Result<FillOptions, Failure> {
     Ok(options)
 }
 
-fn selection(args: &FillArgs) -> Result<Selection, Failure> {
+pub(crate) fn selection(how: &FillHow) -> Result<Selection, Failure> {
     let selection = Selection {
-        only: args.only.clone(),
-        keep: args.keep.clone(),
-        max_edges: args.max_edges,
-        max_perimeter: args.max_perimeter,
-        keep_largest: args.keep_largest,
+        only: how.only.clone(),
+        keep: how.keep.clone(),
+        max_edges: how.max_edges,
+        max_perimeter: how.max_perimeter,
+        keep_largest: how.keep_largest,
     };
     // What is wrong with any mesh is found with an empty one, before the file is read.
     let rules = Selection {
@@ -134,7 +139,7 @@ fn selection(args: &FillArgs) -> Result<Selection, Failure> {
     Ok(selection)
 }
 
-fn fill(
+pub(crate) fn fill(
     mesh: &mut TriMesh,
     boundary: &BoundaryLoops,
     selection: &Selection,
@@ -168,7 +173,7 @@ fn progress_bar(holes: usize) -> ProgressBar {
 }
 
 /// Writes the mesh in the form of the file that it came from, and gives it back.
-fn write_mesh(
+pub(crate) fn write_mesh(
     path: &Path,
     mesh: TriMesh,
     mut file: MeshData,
@@ -206,7 +211,7 @@ fn facts(
         } else {
             args.threads.into()
         },
-        seed: args.seed,
+        seed: args.how.seed,
     }
 }
 
@@ -230,6 +235,6 @@ fn draw(
     io::replace(path, |out| preview::write_png(&picture, out)).map_err(file_failure)
 }
 
-fn file_failure(error: Error) -> Failure {
+pub(crate) fn file_failure(error: Error) -> Failure {
     Failure::file(error.to_string())
 }

@@ -12,6 +12,7 @@ mod fill;
 mod input;
 mod inspect;
 mod model;
+mod points;
 mod preview;
 mod raster;
 mod report;
@@ -56,6 +57,7 @@ fn main() -> ExitCode {
     };
     let result = match &command {
         Command::Fill(args) => fill::run(args),
+        Command::Points(args) => points::run(args),
         Command::Inspect(args) => inspect::run(args),
         Command::Compare(args) => compare::run(args),
         Command::Demo(args) => demo::run(args),

@@ -200,6 +200,7 @@ mod tests {
             cause: None,
             method: None,
             tried: Vec::new(),
+            prediction: None,
             new_vertices: 0..0,
             new_triangles: 0..0,
             self_intersections: 0,

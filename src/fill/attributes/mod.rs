@@ -5,15 +5,16 @@
 //! else (labels, flags, lists) is copied from the nearest rim vertex; a new triangle takes the attributes of
 //! the nearest triangle along the rim. See `docs/methods/attributes.md`.
 //!
-//! Cost: O(n log n) for n new vertices, one dense system of at most [`AttributeOptions::centers`] unknowns,
+//! Cost: O(n log n) for n new vertices, one dense system of at most `attributes.centers` unknowns,
 //! and as many operations for each new vertex. Nothing for a mesh without attributes.
 
 mod columns;
 mod nearest;
 mod rbf;
 
-use super::hole::{Band, Hole};
-use super::options::{AttributeOptions, Interpolator};
+use super::hole::{Band, Hole, HoleReach};
+use super::method::Method;
+use super::options::{FillOptions, Interpolator};
 use crate::error::{ErrorKind, Result, proceed_unless};
 use crate::fair::kharmonic::{extend_from_rim, extend_with_slope};
 use crate::math::sparse::SpdSolver;
@@ -22,6 +23,7 @@ use crate::mesh::attributes::{Attribute, Attributes, ScalarType};
 use crate::mesh::rings::Reach;
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::PatchSurface;
+use crate::predict::mls::HeightField;
 use columns::{is_interpolated, normal_columns};
 use nearest::{nearest_rim_faces, nearest_rim_vertices};
 use rbf::{Rbf, spread_out};
@@ -87,7 +89,9 @@ pub(crate) struct AttributeTask<'a> {
     pub(crate) mesh: &'a TriMesh,
     pub(crate) hole: &'a Hole,
     pub(crate) surface: &'a PatchSurface,
-    pub(crate) options: &'a AttributeOptions,
+    pub(crate) options: &'a FillOptions,
+    /// What made the patch.
+    pub(crate) method: Method,
     /// Asked from time to time; true stops the work.
     pub(crate) interrupted: &'a dyn Fn() -> bool,
 }
@@ -120,9 +124,9 @@ impl AttributeTask<'_> {
             return Ok(carried);
         }
         let mut interpolated: Vec<usize> = (0..columns.len())
-            .filter(|&c| is_interpolated(&columns[c], &self.options.filled))
+            .filter(|&c| is_interpolated(&columns[c], &self.options.attributes.filled))
             .collect();
-        if let Some(axes) = normal_columns(columns, &self.options.filled) {
+        if let Some(axes) = normal_columns(columns, &self.options.attributes.filled) {
             let sign = self.sign_of_normals(axes);
             let normals = vertex_normals(surface);
             for (k, c) in axes.into_iter().enumerate() {
@@ -131,16 +135,29 @@ impl AttributeTask<'_> {
                 interpolated.retain(|&i| i != c);
             }
         }
-        if self.options.interpolator == Interpolator::Nearest || interpolated.is_empty() {
+        let interpolator = match (self.options.attributes.interpolator, self.method) {
+            (Interpolator::Auto, Method::Mls) => Interpolator::Mls,
+            (Interpolator::Auto, _) => Interpolator::Rbf,
+            (chosen, _) => chosen,
+        };
+        if interpolator == Interpolator::Nearest || interpolated.is_empty() {
             return Ok(carried);
         }
-        let band = hole.band(self.mesh, Reach::rings(BAND_RINGS));
+        let mut reach = Reach::rings(BAND_RINGS);
+        if interpolator == Interpolator::Mls {
+            let vicinity = HoleReach {
+                rings: BAND_RINGS,
+                steps: self.options.mls.beta,
+            };
+            reach = hole.in_mesh(vicinity);
+        }
+        let band = hole.band(self.mesh, reach);
         let known: Vec<Channel> = interpolated
             .into_iter()
             .filter_map(|c| self.channel(c, &band))
             .collect();
         if !known.is_empty()
-            && let Some(values) = self.interpolate(&band, &known)?
+            && let Some(values) = self.interpolate(interpolator, &band, &known)?
         {
             for (channel, values) in known.iter().zip(values) {
                 let values = values.into_iter().map(|v| channel.denormalized(v));
@@ -184,19 +201,22 @@ impl AttributeTask<'_> {
 
     /// Normalized values of each channel at the new vertices, by the interpolator that is asked for, else by
     /// the next simpler one. `None` when none of them can be computed.
-    fn interpolate(&self, band: &Band, channels: &[Channel]) -> Result<Option<Vec<Vec<f64>>>> {
+    fn interpolate(
+        &self,
+        first: Interpolator,
+        band: &Band,
+        channels: &[Channel],
+    ) -> Result<Option<Vec<Vec<f64>>>> {
         let chain = [
+            Interpolator::Mls,
             Interpolator::Rbf,
             Interpolator::Biharmonic,
             Interpolator::Harmonic,
         ];
-        let first = match self.options.interpolator {
-            Interpolator::Auto => Interpolator::Rbf,
-            chosen => chosen,
-        };
         let start = chain.iter().position(|&i| i == first).unwrap_or(0);
         for &interpolator in &chain[start..] {
             let found = match interpolator {
+                Interpolator::Mls => self.by_moving_least_squares(band, channels),
                 Interpolator::Rbf => self.by_radial_functions(band, channels),
                 Interpolator::Biharmonic => self.by_thin_plate(band, channels),
                 _ => self.by_membrane(|i| channels.iter().map(|c| c.values[i]).collect()),
@@ -210,11 +230,22 @@ impl AttributeTask<'_> {
         Ok(None)
     }
 
+    fn by_moving_least_squares(&self, band: &Band, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {
+        let field = HeightField::new(&self.hole.shape, &band.surroundings, &self.options.mls)?;
+        let values = |channel: &Channel| -> Vec<f64> {
+            let vertices = field.vertices().iter();
+            vertices.map(|&v| channel.values[v as usize]).collect()
+        };
+        let known: Vec<Vec<f64>> = channels.iter().map(values).collect();
+        let new_points = &self.surface.points[self.surface.rim_count..];
+        field.extend(&known, new_points, self.interrupted)
+    }
+
     fn by_radial_functions(&self, band: &Band, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {
         let surface = self.surface;
         let mut points = self.hole.shape.points.clone();
         points.extend_from_slice(&band.surroundings.points);
-        let chosen = spread_out(&points, self.options.centers, CENTER_SEPARATION);
+        let chosen = spread_out(&points, self.options.attributes.centers, CENTER_SEPARATION);
         let centers: Vec<Vec3> = chosen.iter().map(|&i| points[i]).collect();
         let value = |i: usize, c: usize| channels[c].values[chosen[i]];
         let f = Rbf::through(&centers, channels.len(), value)?;

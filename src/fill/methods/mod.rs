@@ -1,7 +1,10 @@
 //! The methods: each makes a patch from the shape of a hole, whatever happens to the patch afterwards.
 
+mod auto;
+mod creases;
 mod grey;
 mod hpde;
+mod mls;
 mod nurbs;
 mod staircase;
 mod unfold;
@@ -9,10 +12,12 @@ mod unfold;
 use super::hole::HoleReach;
 use super::method::Method;
 use super::options::FillOptions;
-use crate::error::Result;
+use crate::error::{Error, ErrorKind, Result};
+use crate::fill::report::Prediction;
 use crate::patch::{HoleShape, PatchSurface};
+use auto::Auto;
 use staircase::Staircase;
-use unfold::Unfold;
+pub(super) use unfold::Unfold;
 
 /// Makes patches for one hole by one method after the other; what several methods share is done once.
 pub(crate) struct PatchMaker<'a> {
@@ -20,6 +25,7 @@ pub(crate) struct PatchMaker<'a> {
     options: &'a FillOptions,
     interrupted: &'a dyn Fn() -> bool,
     staircase: Staircase<'a>,
+    auto: Auto<'a>,
     unfold: Unfold<'a>,
 }
 
@@ -35,19 +41,25 @@ impl<'a> PatchMaker<'a> {
             options,
             interrupted,
             staircase: Staircase::new(hole, options, interrupted),
+            auto: Auto::new(hole, options, interrupted),
             unfold: Unfold::new(hole, options, interrupted),
         }
     }
 
-    /// What `method` reads of the mesh round the hole.
-    pub(crate) fn reach(method: Method) -> HoleReach {
-        HoleReach::rings(match method {
-            Method::Hpde => hpde::RING_COUNT,
-            Method::Grey => grey::RING_COUNT,
-            Method::Nurbs => nurbs::RING_COUNT,
-            Method::FairC2 => 2,
-            _ => 1,
-        })
+    /// What `method` reads of the mesh round the hole, for those that it falls back to as well.
+    pub(crate) fn reach(method: Method, options: &FillOptions) -> HoleReach {
+        match method {
+            Method::Auto | Method::Curvature => HoleReach::rings(auto::RINGS),
+            Method::Hpde => HoleReach::rings(hpde::RING_COUNT),
+            Method::Grey => HoleReach::rings(grey::RING_COUNT),
+            Method::Nurbs => HoleReach::rings(nurbs::RING_COUNT),
+            Method::FairC2 => HoleReach::rings(2),
+            Method::Mls => HoleReach {
+                rings: 1,
+                steps: options.mls.beta,
+            },
+            _ => HoleReach::rings(1),
+        }
     }
 
     /// The patch of `method` in the hole's coordinates. It is not verified yet.
@@ -56,11 +68,22 @@ impl<'a> PatchMaker<'a> {
     /// Those of the method, and [`crate::ErrorKind::Cancelled`].
     pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
         match method {
+            Method::Auto | Method::Curvature => self.auto.patch(method, &mut self.staircase),
             Method::Hpde => hpde::patch(self.hole, self.options, self.interrupted),
             Method::Grey => grey::patch(self.hole, self.options, self.interrupted),
             Method::Nurbs => nurbs::patch(self.hole, self.options, self.interrupted),
             Method::UnfoldArea | Method::UnfoldFairing => self.unfold.patch(method),
+            Method::FairC2 if self.auto.is_noisy() => Err(Error::new(
+                ErrorKind::Geometry,
+                "the surroundings are too noisy to read curvature from",
+            )),
+            Method::Mls => mls::patch(self.hole, self.options, self.interrupted),
             _ => self.staircase.patch(method),
         }
+    }
+
+    /// How the surface was predicted, if a method did so.
+    pub(crate) fn prediction(&self) -> Option<&Prediction> {
+        self.auto.prediction()
     }
 }

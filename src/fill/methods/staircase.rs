@@ -4,7 +4,7 @@
 //! P. Liepa, "Filling holes in meshes", SGP 2003. Unlike there, the patch is refined again while it takes
 //! shape, so that its triangles are as regular on the final surface as they were on the first one.
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::fair::kharmonic::{Order, fair};
 use crate::fair::laplacian::Weights;
 use crate::fill::method::Method;
@@ -34,7 +34,7 @@ pub(crate) struct Staircase<'a> {
     hole: &'a HoleShape,
     options: &'a FillOptions,
     interrupted: &'a dyn Fn() -> bool,
-    refined: Option<Result<PatchSurface>>,
+    refined: Option<Result<(PatchSurface, Vec<f64>)>>,
 }
 
 impl<'a> Staircase<'a> {
@@ -63,7 +63,7 @@ impl<'a> Staircase<'a> {
             Method::FairC2 => Order::Three,
             _ => Order::Two,
         };
-        let mut surface = self.refined()?;
+        let (mut surface, _) = self.refined()?;
         let mut solver = SpdSolver::new(self.interrupted);
         let around = &self.hole.surroundings;
         fair(
@@ -77,6 +77,13 @@ impl<'a> Staircase<'a> {
             fair(&mut surface, around, order, Weights::Cotangent, &mut solver)?;
         }
         Ok(surface)
+    }
+
+    pub(super) fn check_interruption(&self) -> Result<()> {
+        if (self.interrupted)() {
+            return Err(Error::cancelled());
+        }
+        Ok(())
     }
 
     fn triangulate(&self, exact_limit: usize, ear_remainder: usize) -> Result<PatchSurface> {
@@ -110,7 +117,11 @@ impl<'a> Staircase<'a> {
         })
     }
 
-    fn refined(&mut self) -> Result<PatchSurface> {
+    /// The patch before it is faired, and the target edge length of each of its vertices.
+    ///
+    /// # Errors
+    /// Those of triangulation and refinement, and [`crate::ErrorKind::Cancelled`].
+    pub(super) fn refined(&mut self) -> Result<(PatchSurface, Vec<f64>)> {
         if let Some(refined) = &self.refined {
             return refined.clone();
         }
@@ -134,9 +145,22 @@ impl<'a> Staircase<'a> {
                 *size /= COARSENING;
             }
             self.refine(&mut surface, &mut sizes, FINE_RELAXATIONS)?;
-            Ok(surface)
+            Ok((surface, sizes))
         });
         self.refined.insert(refined).clone()
+    }
+
+    /// Refines a patch of this hole whose vertices have moved. `sizes` holds the target edge length of each of its
+    /// vertices, and does so afterwards.
+    ///
+    /// # Errors
+    /// Those of refinement, and [`crate::ErrorKind::Cancelled`].
+    pub(super) fn refine_again(
+        &self,
+        surface: &mut PatchSurface,
+        sizes: &mut Vec<f64>,
+    ) -> Result<()> {
+        self.refine(surface, sizes, FINE_RELAXATIONS)
     }
 
     fn refine(

@@ -20,8 +20,9 @@ use crate::triangulate::unfold::unfold;
 /// what is left after the last is not far over the length at which edges are split.
 const ROUNDS: usize = 4;
 
-/// Relaxations of the patch before it gets its shape.
-const RELAXATIONS: usize = 2;
+/// Relaxations of the patch before it gets its shape: more than the staircase needs, for the triangles of the
+/// plane may be far from what suits the rim in space.
+const RELAXATIONS: usize = 5;
 
 /// Builds patches for one hole; the unfolding is done once.
 pub(crate) struct Unfold<'a> {
@@ -59,7 +60,7 @@ impl<'a> Unfold<'a> {
         }
         for _ in 0..ROUNDS {
             let is_refined = self.refine(&mut surface, &mut sizes)?;
-            let mut solver = SpdSolver::default();
+            let mut solver = SpdSolver::new(self.interrupted);
             let around = &self.hole.surroundings;
             // E_AREA is least where every umbrella vector is zero, E_DF where every second-order one is.
             let (order, weights) = if method == Method::UnfoldFairing {
@@ -153,16 +154,11 @@ impl<'a> Unfold<'a> {
             grading: self.options.grading.unwrap_or_else(|| grading(rim_count)),
             pass_relaxations: 1,
             final_relaxations: RELAXATIONS,
+            interrupted: self.interrupted,
             max_vertices: rim_count.saturating_add(self.options.max_new_vertices),
             ..RefineOptions::default()
         };
-        if (self.interrupted)() {
-            return Err(Error::cancelled());
-        }
         let report = refine(surface, sizes, &options, &|a, b| self.hole.is_joined(a, b))?;
-        if (self.interrupted)() {
-            return Err(Error::cancelled());
-        }
         Ok(report.splits > 0)
     }
 }

@@ -6,7 +6,7 @@ use super::parameter::{Parameter, number};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Interpolator {
-    /// What suits the method: at present [`Interpolator::Rbf`].
+    /// [`Interpolator::Mls`] for the method of that name, else [`Interpolator::Rbf`].
     #[default]
     Auto,
     /// Radial basis functions `r³` with a linear part, through values round the hole.
@@ -17,15 +17,18 @@ pub enum Interpolator {
     Harmonic,
     /// A copy of the nearest rim vertex's value.
     Nearest,
+    /// Moving least squares over the hole's reference domain, by the parameters of the method `mls`.
+    Mls,
 }
 
 impl Interpolator {
-    const ALL: [Self; 5] = [
+    const ALL: [Self; 6] = [
         Self::Auto,
         Self::Rbf,
         Self::Biharmonic,
         Self::Harmonic,
         Self::Nearest,
+        Self::Mls,
     ];
 
     fn name(self) -> &'static str {
@@ -35,6 +38,7 @@ impl Interpolator {
             Self::Biharmonic => "biharmonic",
             Self::Harmonic => "harmonic",
             Self::Nearest => "nearest",
+            Self::Mls => "mls",
         }
     }
 }
@@ -87,7 +91,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     Parameter {
         name: "attributes.interpolator",
         help: "how colors and other numbers are carried into a patch",
-        allowed: "auto, rbf, biharmonic, harmonic or nearest",
+        allowed: "auto, rbf, biharmonic, harmonic, nearest or mls",
         get: |o| o.attributes.interpolator.name().to_owned(),
         set: |o, v| {
             let known = Interpolator::ALL.into_iter().find(|i| i.name() == v)?;

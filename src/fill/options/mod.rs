@@ -1,20 +1,24 @@
 //! Options of a fill, and every parameter by its documented name.
 
 mod attributes;
+mod auto;
 mod grey;
 mod hpde;
+mod mls;
 mod nurbs;
 mod parameter;
 mod staircase;
 mod unfold;
 
 pub use attributes::{AttributeOptions, FilledAttributes, Interpolator};
+pub use auto::AutoOptions;
 pub use parameter::Parameter;
 
 use super::method::Method;
 use crate::error::{Error, ErrorKind, Result};
 use crate::predict::grey::GreyOptions;
 use crate::predict::hpde::options::HpdeOptions;
+use crate::predict::mls::MlsOptions;
 use crate::predict::nurbs::NurbsOptions;
 use crate::triangulate::unfold::UnfoldOptions;
 use parameter::{number, switch, switch_name};
@@ -49,6 +53,8 @@ pub struct FillOptions {
     pub grading: Option<f64>,
     /// Largest number of new vertices in one hole; default 10,000,000.
     pub max_new_vertices: usize,
+    /// What [`Method::Auto`] and [`Method::Curvature`] do.
+    pub auto: AutoOptions,
     /// Options of [`Method::Hpde`].
     pub hpde: HpdeOptions,
     /// Options of [`Method::Grey`], which uses those of [`Method::Hpde`] besides.
@@ -63,6 +69,8 @@ pub struct FillOptions {
     pub attributes: AttributeOptions,
     /// How [`Method::UnfoldArea`] and [`Method::UnfoldFairing`] unfold the rim.
     pub unfold: UnfoldOptions,
+    /// How [`Method::Mls`] fits and resamples.
+    pub mls: MlsOptions,
 }
 
 impl Default for FillOptions {
@@ -77,12 +85,14 @@ impl Default for FillOptions {
             density: 1.0,
             grading: None,
             max_new_vertices: 10_000_000,
+            auto: AutoOptions::default(),
             hpde: HpdeOptions::default(),
             grey: GreyOptions::default(),
             nurbs: NurbsOptions::default(),
             time_budget: None,
             attributes: AttributeOptions::default(),
             unfold: UnfoldOptions::default(),
+            mls: MlsOptions::default(),
         }
     }
 }
@@ -90,11 +100,13 @@ impl Default for FillOptions {
 /// The parameters, by the method or stage that they belong to.
 const GROUPS: &[&[Parameter]] = &[
     FILL,
+    auto::PARAMETERS,
     staircase::PARAMETERS,
     hpde::PARAMETERS,
     grey::PARAMETERS,
     nurbs::PARAMETERS,
     unfold::PARAMETERS,
+    mls::PARAMETERS,
     attributes::PARAMETERS,
 ];
 

@@ -2,11 +2,13 @@
 
 mod attributes;
 mod conflicts;
+mod creases;
 mod interruption;
 mod islands;
 mod outcomes;
 mod properties;
 mod shape;
+mod unfold;
 mod verify;
 
 use super::method::Method;

@@ -179,8 +179,12 @@ fn the_chain_goes_from_the_chosen_method_to_simpler_ones() {
         options.fallback = fallback;
         chain(&options)
     };
-    use Method::{Auto, FairC1, FairC2, Flat, Membrane};
-    assert_eq!(of(Auto, true), [FairC1, Membrane, Flat]);
+    use Method::{Auto, Curvature, FairC1, FairC2, Flat, Membrane};
+    assert_eq!(of(Auto, true), [Auto, FairC2, FairC1, Membrane, Flat]);
+    assert_eq!(
+        of(Curvature, true),
+        [Curvature, FairC2, FairC1, Membrane, Flat]
+    );
     assert_eq!(of(FairC2, true), [FairC2, FairC1, Membrane, Flat]);
     assert_eq!(of(Membrane, true), [Membrane, Flat]);
     assert_eq!(of(Flat, true), [Flat]);

@@ -6,7 +6,7 @@ use crate::error::{ErrorKind, Result};
 use crate::fill::hole::{Hole, HoleReach};
 use crate::fill::method::Method;
 use crate::fill::methods::PatchMaker;
-use crate::fill::verify::{check_against_mesh, check_patch};
+use crate::fill::verify::{check_against_mesh, check_patch, farthest};
 use crate::fixtures::{self, Arrays};
 use crate::math::Vec3;
 use crate::mesh::trimesh::TriMesh;
@@ -38,10 +38,23 @@ fn kind(result: Result<()>) -> Option<ErrorKind> {
 /// Panics unless the change to a valid patch is caught as `expected`.
 fn assert_caught(expected: ErrorKind, what: &str, change: impl Fn(&mut PatchSurface)) {
     let (_, hole, mut surface) = sphere_cap();
-    assert_eq!(kind(check_patch(&hole, &surface, &|| false)), None);
+    assert_eq!(
+        kind(check_patch(
+            &hole,
+            &surface,
+            farthest(Method::FairC1),
+            &|| false
+        )),
+        None
+    );
     change(&mut surface);
     assert_eq!(
-        kind(check_patch(&hole, &surface, &|| false)),
+        kind(check_patch(
+            &hole,
+            &surface,
+            farthest(Method::FairC1),
+            &|| false
+        )),
         Some(expected),
         "{what}"
     );
@@ -52,7 +65,15 @@ fn a_patch_as_it_is_made_is_accepted() {
     for method in super::METHODS {
         let (mesh, hole, surface) =
             hole_and_patch(&fixtures::sphere(9).cut(|c| c[0] > 0.5), method);
-        assert_eq!(kind(check_patch(&hole, &surface, &|| false)), None);
+        assert_eq!(
+            kind(check_patch(
+                &hole,
+                &surface,
+                farthest(Method::FairC1),
+                &|| false
+            )),
+            None
+        );
         let global = |v: u32| match (v as usize).checked_sub(surface.rim_count) {
             Some(new) => (mesh.positions().len() + new) as u32,
             None => hole.rim[v as usize],
@@ -144,10 +165,20 @@ fn an_edge_that_the_mesh_has_already_is_caught() {
         triangles: triangles.map(|t| t.map(at)).to_vec(),
     };
     let free = patch([[0, 2, 3], [0, 3, 1]]);
-    assert_eq!(kind(check_patch(&hole, &free, &|| false)), None);
+    assert_eq!(
+        kind(check_patch(&hole, &free, farthest(Method::FairC1), &|| {
+            false
+        })),
+        None
+    );
     let taken = patch([[0, 2, 1], [1, 2, 3]]);
     assert_eq!(
-        kind(check_patch(&hole, &taken, &|| false)),
+        kind(check_patch(
+            &hole,
+            &taken,
+            farthest(Method::FairC1),
+            &|| false
+        )),
         Some(ErrorKind::Topology)
     );
     let caught = |triangles: &[[u32; 3]]| kind(check_against_mesh(&mesh, &hole, triangles));
@@ -194,7 +225,13 @@ fn the_coordinates_of_a_hole_are_those_of_the_mesh_moved_and_scaled() {
     }
     // The polygon runs against the loop.
     let l = &boundary.loops[0].vertices;
-    let at = hole.shape.polygon.iter().map(|&i| hole.rim[i as usize]);
-    let expected = (0..n).map(|i| l[(n - i) % n]);
-    assert!(at.eq(expected));
+    let at: Vec<u32> = hole
+        .shape
+        .polygon
+        .iter()
+        .map(|&i| hole.rim[i as usize])
+        .collect();
+    let first = l.iter().position(|&v| v == at[0]).unwrap();
+    let expected: Vec<u32> = (0..n).map(|i| l[(first + n - i) % n]).collect();
+    assert_eq!(at, expected);
 }

@@ -1,5 +1,18 @@
 //! Surfaces that continue the surroundings of a hole as zero sets of functions.
 
+pub(crate) mod algebraic;
+pub(crate) mod candidates;
+pub(crate) mod choice;
+#[cfg(test)]
+mod fixtures;
+pub(crate) mod frame;
+pub(crate) mod hermite_rbf;
+pub(crate) mod jets;
+pub(crate) mod march;
+pub(crate) mod primitives;
+pub(crate) mod samples;
+pub(crate) mod tip;
+
 use crate::math::Vec3;
 
 /// A point of the known surface with its normal.

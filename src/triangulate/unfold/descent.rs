@@ -13,8 +13,8 @@
 //! O(m^1.5) a step for the forces: vertices far away act together, in runs of √m. Not guaranteed: that the energy
 //! falls in each step, that the lengths are kept where the bound is tight, that an unknot gets unfolded.
 
-use super::distance::SegmentDistances;
-use crate::math::Vec3;
+use super::distance::{Clearances, SegmentDistances};
+use crate::math::{Vec3, unit};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
@@ -26,8 +26,16 @@ const STEP: f64 = 0.5;
 /// whole.
 const SMOOTHING_SHARE: f64 = 0.1;
 
-/// Times that all edges are pulled to their length after a step; the rest is left to the next steps.
-const LENGTH_SWEEPS: usize = 5;
+/// Times that all edges are pulled to their length, and near segments pushed apart, in a step; what is left of
+/// both is for the next steps.
+const SWEEPS: usize = 20;
+
+/// Segments that are nearer than this, in mean edge lengths, are pushed apart: the vertices' forces do not see
+/// that the middles of two edges touch.
+const CONTACT: f64 = 0.5;
+
+/// Distances of segments are known up to this, in mean edge lengths: no step can be longer than half of it.
+const REACH: f64 = 4.0 * STEP;
 
 /// Part of half the distance to other segments that a vertex may go; the rest is for rounding.
 const CLEARANCE_SHARE: f64 = 0.98;
@@ -56,7 +64,7 @@ pub(super) struct Descent {
     energy: f64,
     forces: Vec<Vec3>,
     targets: Vec<Vec3>,
-    clearances: Vec<f64>,
+    clearances: Clearances,
     distances: SegmentDistances,
 }
 
@@ -76,7 +84,7 @@ impl Descent {
             energy: f64::INFINITY,
             forces: vec![Vec3::zeros(); m],
             targets: points.to_vec(),
-            clearances: Vec::new(),
+            clearances: Clearances::default(),
             distances: SegmentDistances::default(),
         }
     }
@@ -107,7 +115,12 @@ impl Descent {
         {
             *target = point + force * (STEP / largest);
         }
-        self.keep_lengths();
+        self.distances
+            .at_vertices(&self.points, REACH, CONTACT, &mut self.clearances);
+        for sweep in 0..SWEEPS {
+            self.keep_lengths(sweep);
+            self.keep_apart();
+        }
         self.go();
         true
     }
@@ -157,18 +170,43 @@ impl Descent {
     }
 
     /// Pulls the ends of each edge of the targets towards its length, forwards and backwards in turn.
-    fn keep_lengths(&mut self) {
+    fn keep_lengths(&mut self, sweep: usize) {
         let m = self.targets.len();
-        for sweep in 0..LENGTH_SWEEPS {
-            for k in 0..m {
-                let i = if sweep % 2 == 0 { k } else { m - 1 - k };
-                let j = (i + 1) % m;
-                let edge = self.targets[j] - self.targets[i];
-                let length = edge.norm();
-                if length > f64::MIN_POSITIVE {
-                    let way = edge * (0.5 * (1.0 - self.lengths[i] / length));
-                    self.targets[i] += way;
-                    self.targets[j] -= way;
+        for k in 0..m {
+            let i = if sweep.is_multiple_of(2) {
+                k
+            } else {
+                m - 1 - k
+            };
+            let j = (i + 1) % m;
+            let edge = self.targets[j] - self.targets[i];
+            let length = edge.norm();
+            if length > f64::MIN_POSITIVE {
+                let way = edge * (0.5 * (1.0 - self.lengths[i] / length));
+                self.targets[i] += way;
+                self.targets[j] -= way;
+            }
+        }
+    }
+
+    /// Pushes the targets of segments that are near to each other apart, where they are nearest now.
+    fn keep_apart(&mut self) {
+        let m = self.targets.len();
+        for contact in &self.clearances.contacts {
+            let [i, j] = contact.segments;
+            let nearest = &contact.nearest;
+            let corners = [i, (i + 1) % m, j, (j + 1) % m];
+            let weights = [1.0 - nearest.x, nearest.x, nearest.y - 1.0, -nearest.y];
+            let away = unit(nearest.way);
+            let apart: f64 = corners
+                .iter()
+                .zip(weights)
+                .map(|(&v, weight)| weight * self.targets[v].dot(&away))
+                .sum();
+            if apart < CONTACT {
+                let push = (CONTACT - apart) / weights.iter().map(|w| w * w).sum::<f64>();
+                for (&v, weight) in corners.iter().zip(weights) {
+                    self.targets[v] += away * (push * weight);
                 }
             }
         }
@@ -176,15 +214,8 @@ impl Descent {
 
     /// Goes to the targets, or as far towards them as the clearances allow.
     fn go(&mut self) {
-        let reach = 4.0 * STEP;
-        self.distances
-            .at_vertices(&self.points, reach, &mut self.clearances);
-        for ((point, target), clearance) in self
-            .points
-            .iter_mut()
-            .zip(&self.targets)
-            .zip(&self.clearances)
-        {
+        let places = self.points.iter_mut().zip(&self.targets);
+        for ((point, target), clearance) in places.zip(&self.clearances.distances) {
             let limit = 0.5 * CLEARANCE_SHARE * (clearance - self.epsilon);
             let way = target - *point;
             let length = way.norm();

@@ -33,26 +33,41 @@ impl SegmentDistances {
         }
         // The segment after the next is nearly always close: it bounds the search from the start.
         let start = (0..m)
-            .map(|i| segment_distance(points, i, (i + 2) % m))
+            .map(|i| nearest(points, i, (i + 2) % m).distance())
             .fold(f64::INFINITY, f64::min);
         let mut smallest = start;
-        self.visit_near(points, start, |i, j, _| {
-            smallest = smallest.min(segment_distance(points, i, j));
+        self.visit_near(points, start, |i, j| {
+            smallest = smallest.min(nearest(points, i, j).distance());
             smallest
         });
         smallest
     }
 
     /// For each vertex the smallest distance of its two segments to all others that share no vertex with the
-    /// segment, at most `reach`.
-    pub(super) fn at_vertices(&mut self, points: &[Vec3], reach: f64, out: &mut Vec<f64>) {
+    /// segment, at most `reach`; and the pairs of segments that are nearer than `contact_reach`, which is at most
+    /// `reach`.
+    pub(super) fn at_vertices(
+        &mut self,
+        points: &[Vec3],
+        reach: f64,
+        contact_reach: f64,
+        out: &mut Clearances,
+    ) {
         let m = points.len();
-        out.clear();
-        out.resize(m, reach);
-        self.visit_near(points, reach, |i, j, _| {
-            let distance = segment_distance(points, i, j);
+        out.distances.clear();
+        out.distances.resize(m, reach);
+        out.contacts.clear();
+        self.visit_near(points, reach, |i, j| {
+            let nearest = nearest(points, i, j);
+            let distance = nearest.distance();
             for v in [i, (i + 1) % m, j, (j + 1) % m] {
-                out[v] = out[v].min(distance);
+                out.distances[v] = out.distances[v].min(distance);
+            }
+            if distance < contact_reach {
+                out.contacts.push(Contact {
+                    segments: [i, j],
+                    nearest,
+                });
             }
             reach
         });
@@ -64,7 +79,7 @@ impl SegmentDistances {
         &mut self,
         points: &[Vec3],
         mut reach: f64,
-        mut visit: impl FnMut(usize, usize, f64) -> f64,
+        mut visit: impl FnMut(usize, usize) -> f64,
     ) {
         let m = points.len();
         self.boxes.clear();
@@ -95,56 +110,76 @@ impl SegmentDistances {
                     continue;
                 }
                 if boxes[i].grown(reach).overlaps(&boxes[j]) {
-                    reach = visit(i, j, reach);
+                    reach = visit(i, j);
                 }
             }
         }
     }
 }
 
-/// The distance between two segments of the closed polygon.
-fn segment_distance(points: &[Vec3], i: usize, j: usize) -> f64 {
-    let m = points.len();
-    distance(
-        [&points[i], &points[(i + 1) % m]],
-        [&points[j], &points[(j + 1) % m]],
-    )
+/// The way from the place `y` of the second of two segments to the place `x` of the first, where they are
+/// nearest; places run from 0 to 1 along a segment.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Nearest {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) way: Vec3,
 }
 
-/// The distance between the segments from `p` to `q` and from `r` to `s`.
-fn distance([p, q]: [&Vec3; 2], [r, s]: [&Vec3; 2]) -> f64 {
+impl Nearest {
+    fn distance(&self) -> f64 {
+        self.way.norm()
+    }
+}
+
+/// Two segments that are near to each other.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Contact {
+    pub(super) segments: [usize; 2],
+    pub(super) nearest: Nearest,
+}
+
+/// What [`SegmentDistances::at_vertices`] finds.
+#[derive(Default)]
+pub(super) struct Clearances {
+    pub(super) distances: Vec<f64>,
+    pub(super) contacts: Vec<Contact>,
+}
+
+/// Where segment `i` of the closed polygon is nearest to segment `j`.
+fn nearest(points: &[Vec3], i: usize, j: usize) -> Nearest {
+    let m = points.len();
+    let (p, q) = (&points[i], &points[(i + 1) % m]);
+    let (r, s) = (&points[j], &points[(j + 1) % m]);
     let (d, e, w) = (q - p, s - r, p - r);
     let (dd, ee, de) = (d.norm_squared(), e.norm_squared(), d.dot(&e));
     let (dw, ew) = (d.dot(&w), e.dot(&w));
-    let clamped = |numerator: f64, denominator: f64| {
+    let share = |numerator: f64, denominator: f64| {
         if denominator > 0.0 {
             (numerator / denominator).clamp(0.0, 1.0)
         } else {
             0.0
         }
     };
-    // The nearest point on the first line to the second, then on the second segment to that point, then back.
-    let x = clamped(de * ew - ee * dw, dd * ee - de * de);
-    let y = clamped(de * x + ew, ee);
-    let x = clamped(de * y - dw, dd);
-    let nearest = (w + d * x - e * y).norm_squared();
-    // Of segments that are almost parallel the first value of x is rounding: the ends decide.
-    let ends = [
-        to_segment(p, r, &e, ee),
-        to_segment(q, r, &e, ee),
-        to_segment(r, p, &d, dd),
-        to_segment(s, p, &d, dd),
+    // The nearest place of the first line to the second, then of the second segment to that place, then back.
+    let x = share(de * ew - ee * dw, dd * ee - de * de);
+    let y = share(de * x + ew, ee);
+    let x = share(de * y - dw, dd);
+    // Of segments that are almost parallel the first x is rounding: there one of the ends is nearest.
+    let places = [
+        (x, y),
+        (0.0, share(ew, ee)),
+        (1.0, share(de + ew, ee)),
+        (share(-dw, dd), 0.0),
+        (share(de - dw, dd), 1.0),
     ];
-    ends.into_iter().fold(nearest, f64::min).sqrt()
-}
-
-/// Squared distance of `p` from the segment that leaves `start` along `d`, of squared length `dd`.
-fn to_segment(p: &Vec3, start: &Vec3, d: &Vec3, dd: f64) -> f64 {
-    let w = p - start;
-    let x = if dd > 0.0 {
-        (w.dot(d) / dd).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    (w - d * x).norm_squared()
+    let mut best = (f64::INFINITY, Nearest { x, y, way: w });
+    for (x, y) in places {
+        let way = w + d * x - e * y;
+        let distance_sq = way.norm_squared();
+        if distance_sq < best.0 {
+            best = (distance_sq, Nearest { x, y, way });
+        }
+    }
+    best.1
 }

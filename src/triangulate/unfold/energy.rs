@@ -5,11 +5,12 @@
 
 use crate::math::Vec3;
 
-/// `E_PE`: the sum, over all vertices, of the angle in radians between the normals of the corners there and at
-/// the next vertex, from 0 to π each. O(m).
+/// `E_PE`: the sum, over all vertices, of the angle in radians between the planes of the corners there and at the
+/// next vertex, from 0 to π/2 each. O(m).
 ///
-/// A planar convex polygon has none; each change between a convex and a concave corner of a planar polygon
-/// counts π, each corner that is straight counts as if its normal were right.
+/// It is zero for every planar polygon. With the angle between the normals as vectors, each change between a
+/// convex and a concave corner would cost π in the plane, and concavities would not be kept, as the paper
+/// wants them to be.
 pub(super) fn planarity(points: &[Vec3]) -> f64 {
     let m = points.len();
     let normal = |i: usize| {
@@ -20,7 +21,7 @@ pub(super) fn planarity(points: &[Vec3]) -> f64 {
     let mut here = normal(0);
     for i in 0..m {
         let next = normal(i + 1);
-        sum += here.cross(&next).norm().atan2(here.dot(&next));
+        sum += here.cross(&next).norm().atan2(here.dot(&next).abs());
         here = next;
     }
     sum

@@ -156,6 +156,16 @@ pub(crate) fn unfold(
 const ANNEALING_RUNS: usize = 100;
 const DESCENT_RUNS: usize = 4;
 
+/// A run does no more steps than keep `steps m^1.5` below this, some seconds; `unfold.steps` steps need less for all
+/// but rims of thousands of edges.
+const MOST_WORK: f64 = 5e8;
+
+/// Steps that a run may take.
+fn step_limit(options: &UnfoldOptions, m: usize) -> usize {
+    let affordable = MOST_WORK / (m as f64).powf(1.5);
+    options.steps.min(affordable as usize).max(1)
+}
+
 /// A run of the descent; the polygon and the number of steps if it was unfolded.
 fn descend(
     curve: &[Vec3],
@@ -165,7 +175,7 @@ fn descend(
 ) -> Result<Option<(Vec<Point2>, usize)>> {
     let kicks = (run > 0).then(|| seeded(seed, run as u64));
     let mut descent = Descent::new(curve, options.epsilon, kicks);
-    for step in 1..=options.steps {
+    for step in 1..=step_limit(options, curve.len()) {
         if interrupted() {
             return Err(Error::cancelled());
         }
@@ -188,7 +198,7 @@ fn anneal(
 ) -> Result<Option<(Vec<Point2>, usize)>> {
     let mut annealing = Annealing::new(curve, options, seeded(seed, run as u64));
     let mut accepted = 0;
-    for _ in 0..options.steps {
+    for _ in 0..step_limit(options, curve.len()) {
         if interrupted() {
             return Err(Error::cancelled());
         }

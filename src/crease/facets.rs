@@ -1,0 +1,168 @@
+//! The known triangles round a hole: who meets whom in which edge, and normals from which noise is filtered.
+//!
+//! Normals are filtered by Y. Zheng, H. Fu, O. K.-C. Au, C.-L. Tai, "Bilateral normal filtering for mesh
+//! denoising", IEEE TVCG 17(10), 2011 (the local, iterative scheme), which averages them over neighbours whose
+//! normals are alike and so keeps creases. The width of "alike" follows from the normals themselves: a clean mesh is
+//! left as it is.
+
+use crate::math::{Vec3, cross_normal, unit};
+use crate::patch::HoleShape;
+
+/// Rounds of filtering.
+const ROUNDS: usize = 6;
+
+/// Width of the filter in units of the median difference between the normals of neighbours, and at most: beyond
+/// that it would average over creases.
+const WIDTH_FACTOR: f64 = 2.0;
+const MOST_WIDTH: f64 = 0.35;
+
+/// An edge between two known triangles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct SharedEdge {
+    /// Its vertices, the smaller first.
+    pub(super) vertices: [u32; 2],
+    /// Its triangles; the first runs along it from the smaller vertex to the larger.
+    pub(super) faces: [u32; 2],
+}
+
+/// The known triangles with their normals and common edges.
+pub(super) struct Facets<'a> {
+    hole: &'a HoleShape,
+    /// Unit normals; zero for triangles without area.
+    pub(super) normals: Vec<Vec3>,
+    areas: Vec<f64>,
+    /// Edges with exactly two triangles that run along them in opposite directions, sorted by vertices.
+    pub(super) edges: Vec<SharedEdge>,
+}
+
+impl<'a> Facets<'a> {
+    pub(super) fn new(hole: &'a HoleShape) -> Self {
+        let mut facets = Self {
+            hole,
+            normals: Vec::new(),
+            areas: Vec::new(),
+            edges: shared_edges(&hole.surroundings.triangles),
+        };
+        for t in &hole.surroundings.triangles {
+            let [a, b, c] = t.map(|v| facets.point(v));
+            let normal = cross_normal(&a, &b, &c);
+            facets.normals.push(unit(normal));
+            facets.areas.push(normal.norm() / 2.0);
+        }
+        facets
+    }
+
+    pub(super) fn triangles(&self) -> &[[u32; 3]] {
+        &self.hole.surroundings.triangles
+    }
+
+    /// The position of a vertex of the rim or of the surroundings.
+    pub(super) fn point(&self, v: u32) -> Vec3 {
+        let rim = &self.hole.points;
+        match (v as usize).checked_sub(rim.len()) {
+            None => rim[v as usize],
+            Some(outer) => self.hole.surroundings.points[outer],
+        }
+    }
+
+    /// The ring that a triangle belongs to: the lowest level of its vertices.
+    pub(super) fn ring(&self, face: usize) -> u32 {
+        let rim = self.hole.points.len();
+        let level = |v: u32| match (v as usize).checked_sub(rim) {
+            None => 0,
+            Some(outer) => self.hole.surroundings.levels[outer],
+        };
+        let [a, b, c] = self.triangles()[face].map(level);
+        a.min(b).min(c)
+    }
+
+    /// The angle between two triangles in radians, as their present normals see it.
+    pub(super) fn angle(&self, edge: &SharedEdge) -> f64 {
+        self.angle_between(edge.faces)
+    }
+
+    /// The same for triangles that need not be neighbours.
+    pub(super) fn angle_between(&self, faces: [u32; 2]) -> f64 {
+        let [n, m] = faces.map(|f| self.normals[f as usize]);
+        2.0 * (0.5 * (n - m).norm()).min(1.0).asin()
+    }
+
+    /// Whether the surface is convex along the edge, seen from where the normals point.
+    pub(super) fn is_convex(&self, edge: &SharedEdge) -> bool {
+        let [n, m] = edge.faces.map(|f| self.normals[f as usize]);
+        let along = self.point(edge.vertices[1]) - self.point(edge.vertices[0]);
+        n.cross(&m).dot(&along) > 0.0
+    }
+
+    /// Filters noise from the normals.
+    pub(super) fn filter_normals(&mut self) {
+        let mut differences: Vec<f64> = self
+            .edges
+            .iter()
+            .map(|e| (self.normals[e.faces[0] as usize] - self.normals[e.faces[1] as usize]).norm())
+            .collect();
+        differences.sort_unstable_by(f64::total_cmp);
+        let median = differences.get(differences.len() / 2).copied();
+        let width = (WIDTH_FACTOR * median.unwrap_or(0.0)).min(MOST_WIDTH);
+        if width <= 0.0 {
+            return;
+        }
+        let neighbors = self.neighbors();
+        for _ in 0..ROUNDS {
+            let filtered = (0..self.normals.len()).map(|f| {
+                let own = self.normals[f];
+                let mut sum = self.areas[f] * own;
+                for &g in &neighbors[f] {
+                    let other = self.normals[g as usize];
+                    let unlike = (own - other).norm_squared() / (2.0 * width * width);
+                    sum += self.areas[g as usize] * (-unlike).exp() * other;
+                }
+                unit(sum)
+            });
+            self.normals = filtered.collect();
+        }
+    }
+
+    /// The triangles that share a vertex with each triangle.
+    fn neighbors(&self) -> Vec<Vec<u32>> {
+        let count = self.hole.points.len() + self.hole.surroundings.points.len();
+        let mut at_vertex: Vec<Vec<u32>> = vec![Vec::new(); count];
+        for (f, t) in (0..).zip(self.triangles()) {
+            for &v in t {
+                at_vertex[v as usize].push(f);
+            }
+        }
+        let around = |(f, t): (u32, &[u32; 3])| {
+            let mut near: Vec<u32> = t
+                .iter()
+                .flat_map(|&v| at_vertex[v as usize].iter().copied())
+                .filter(|&g| g != f)
+                .collect();
+            near.sort_unstable();
+            near.dedup();
+            near
+        };
+        (0..).zip(self.triangles()).map(around).collect()
+    }
+}
+
+fn shared_edges(triangles: &[[u32; 3]]) -> Vec<SharedEdge> {
+    let mut halfedges: Vec<(u32, u32, bool, u32)> = Vec::with_capacity(3 * triangles.len());
+    for (f, t) in (0..).zip(triangles) {
+        for k in 0..3 {
+            let (a, b) = (t[k], t[(k + 1) % 3]);
+            halfedges.push((a.min(b), a.max(b), a > b, f));
+        }
+    }
+    halfedges.sort_unstable();
+    let mut edges = Vec::with_capacity(halfedges.len() / 2);
+    for same in halfedges.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1)) {
+        if let [(a, b, false, f), (_, _, true, g)] = *same {
+            edges.push(SharedEdge {
+                vertices: [a, b],
+                faces: [f, g],
+            });
+        }
+    }
+    edges
+}

@@ -1,0 +1,4 @@
+//! Creases of the known surface that run into a hole.
+
+pub(crate) mod detect;
+mod facets;

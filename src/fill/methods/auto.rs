@@ -1,0 +1,442 @@
+//! Predicts the surface that was there and moves a patch onto it.
+//!
+//! The surroundings are read through [`SampledBand`]; candidate surfaces compete in predicting rings that they have
+//! not seen ([`choice`]). A faired patch is then marched onto the winner in short steps, refined as it grows, and
+//! blended into the rim. What comes out passes the gates below or is not used: then the simpler methods follow.
+
+use super::creases::Creases;
+use super::staircase::Staircase;
+use crate::error::{Error, ErrorKind, Result};
+use crate::fair::kharmonic::extend_from_rim;
+use crate::fill::method::Method;
+use crate::fill::options::FillOptions;
+use crate::fill::report::Prediction;
+use crate::math::aabb::Aabb;
+use crate::math::sparse::SpdSolver;
+use crate::math::{Vec3, cross_normal, unit};
+use crate::patch::{HoleShape, PatchSurface};
+use crate::predict::surface::candidates::Candidate;
+use crate::predict::surface::choice::Score;
+use crate::predict::surface::jets::Band;
+use crate::predict::surface::samples::SampledBand;
+use crate::predict::surface::{Implicit, choice, march, tip};
+
+/// Rings of triangles round the hole that are read.
+pub(super) const RINGS: u32 = choice::RINGS;
+
+/// Rounds of moving and refining, at most.
+const MOST_ROUNDS: usize = 5;
+/// Newton steps of each round and of the last projection.
+const STEPS: usize = 10;
+const LAST_STEPS: usize = 6;
+/// Longest Newton step, in extents of the rim.
+const LONGEST_STEP: f64 = 0.05;
+/// A round in which no vertex moves further than this, in rim edge lengths, and the number of triangles changes by
+/// less than the second number, as a share, is the last.
+const SETTLED_MOVE: f64 = 0.02;
+const SETTLED_GROWTH: f64 = 0.01;
+/// Fewer interior vertices than this give a tip no shape: the start is refined once more, to edges shorter by the
+/// factor.
+const FEWEST_INTERIOR: usize = 3;
+const FINER_TIP: f64 = 0.6;
+/// The same for rims of up to five edges without an interior vertex: refinement splits their edges only above 1.75
+/// target lengths, and a regular pentagon, whose diagonals have 1.62 sides, is a missing vertex with its triangles.
+const FINER_RIM: f64 = 0.8;
+
+/// Smoothings of folded places, at most, each time.
+const MOST_UNFOLDINGS: usize = 20;
+
+/// Gates. Share of triangles whose normal makes a cosine below `FOLDED` with the mean of its vertices' normals, at
+/// most; two triangles are always allowed.
+const FOLDED: f64 = 0.2;
+const FOLDED_SHARE: f64 = 0.03;
+const FOLDED_COUNT: f64 = 2.5;
+/// Area over that of the faired patch, at most, and for tips.
+const AREA_GROWTH: [f64; 2] = [8.0, 40.0];
+/// Distance from the middle of the rim in extents of the rim, at most, and for tips.
+const REACH: [f64; 2] = [3.0, 6.0];
+/// Share of rim edges at which the normals of patch and mesh make a cosine below `BENT`, at most, if the faired patch
+/// has no more.
+const BENT: f64 = 0.3;
+const BENT_SHARE: f64 = 0.1;
+
+/// Noise above which fairing with common curvature amplifies it.
+const TOO_NOISY_FOR_CURVATURE: f64 = 0.06;
+
+/// Candidate of [`Method::Curvature`], and where the surroundings are noisy.
+const UNCHOSEN: [Candidate; 2] = [Candidate::Cubic, Candidate::CubicSmoothed];
+
+/// Predicts the surface in one hole.
+pub(super) struct Auto<'a> {
+    hole: &'a HoleShape,
+    options: &'a FillOptions,
+    interrupted: &'a dyn Fn() -> bool,
+    prediction: Option<Prediction>,
+}
+
+impl<'a> Auto<'a> {
+    pub(super) fn new(
+        hole: &'a HoleShape,
+        options: &'a FillOptions,
+        interrupted: &'a dyn Fn() -> bool,
+    ) -> Self {
+        Self {
+            hole,
+            options,
+            interrupted,
+            prediction: None,
+        }
+    }
+
+    /// How the surface was predicted, once it was.
+    pub(super) fn prediction(&self) -> Option<&Prediction> {
+        self.prediction.as_ref()
+    }
+
+    /// Whether the surface was predicted and the surroundings turned out too noisy for second derivatives.
+    pub(super) fn is_noisy(&self) -> bool {
+        self.prediction
+            .as_ref()
+            .is_some_and(|p| p.noise > TOO_NOISY_FOR_CURVATURE)
+    }
+
+    /// The patch on the predicted surface.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Geometry`] when no surface could be fitted or the patch on it fails a gate; those of the
+    /// staircase; [`ErrorKind::Cancelled`].
+    pub(super) fn patch(
+        &mut self,
+        method: Method,
+        staircase: &mut Staircase<'_>,
+    ) -> Result<PatchSurface> {
+        let lengths = &self.hole.edge_lengths;
+        let step = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
+        let mut samples = SampledBand::new(Band::new(self.hole), step, self.options.auto.jets);
+        staircase.check_interruption()?;
+        let is_noisy = samples.is_noisy();
+        let (candidate, scores, is_tip) = self.choose(method, &mut samples)?;
+        let smooth_score = choice::score_of(&scores, candidate);
+        self.prediction = Some(Prediction {
+            chosen: candidate,
+            scores,
+            noise: samples.noise,
+            is_tip,
+            crease_count: 0,
+            crease_surfaces: Vec::new(),
+            without_creases: None,
+        });
+        if method == Method::Auto
+            && let Some(patch) = self.patch_with_creases(step, smooth_score)?
+        {
+            return Ok(patch);
+        }
+        staircase.check_interruption()?;
+        let surface = candidate
+            .fit_to_rim(&mut samples)
+            .ok_or_else(|| geometry("no surface fits the surroundings"))?;
+        let marcher = Marcher {
+            hole: self.hole,
+            surface: surface.as_ref(),
+            step,
+            is_tip,
+            interrupted: self.interrupted,
+        };
+        let faired = staircase.patch(Method::FairC1)?;
+        let result = marcher.patch(&faired, staircase);
+        match result {
+            Err(error) if error.kind() == ErrorKind::Geometry && !is_noisy => {
+                let start = staircase.patch(Method::FairC2)?;
+                marcher
+                    .patch_from(&start, &faired, staircase)
+                    .map_err(|_| error)
+            }
+            other => other,
+        }
+    }
+}
+
+/// Candidate, scores, and whether the hole is a tip.
+type Chosen = (Candidate, Vec<Score>, bool);
+
+impl Auto<'_> {
+    /// The patch that continues creases across the hole, if there are any and they are good enough; what speaks
+    /// against them is noted in the prediction.
+    fn patch_with_creases(
+        &mut self,
+        step: f64,
+        smooth_score: Option<f64>,
+    ) -> Result<Option<PatchSurface>> {
+        if !self.options.auto.creases {
+            return Ok(None);
+        }
+        let creases = Creases {
+            hole: self.hole,
+            options: self.options,
+            interrupted: self.interrupted,
+            step,
+            smooth_score: smooth_score.unwrap_or(f64::INFINITY),
+        };
+        let found = creases.patch();
+        let Some(prediction) = &mut self.prediction else {
+            return Ok(None);
+        };
+        match found {
+            Ok(Some(patch)) => {
+                prediction.crease_count = patch.count;
+                prediction.crease_surfaces = patch.surfaces;
+                Ok(Some(patch.surface))
+            }
+            Ok(None) => Ok(None),
+            Err(error) if error.kind() == ErrorKind::Cancelled => Err(error),
+            Err(error) => {
+                prediction.without_creases = Some(error.to_string());
+                Ok(None)
+            }
+        }
+    }
+
+    /// Whether the options let a candidate compete.
+    pub(super) fn allows(options: &FillOptions, candidate: Candidate, is_noisy: bool) -> bool {
+        let options = &options.auto;
+        candidate.suits(is_noisy)
+            && (options.primitives || candidate.interpolates())
+            && (options.quintic || candidate != Candidate::Quintic)
+    }
+
+    fn choose(&self, method: Method, samples: &mut SampledBand) -> Result<Chosen> {
+        let options = &self.options.auto;
+        let is_noisy = samples.is_noisy();
+        if let Some(candidate) = options.candidate {
+            let is_tip = options.tips && tip::is_tip(self.hole, &samples.band);
+            return Ok((candidate, Vec::new(), is_tip));
+        }
+        if method == Method::Curvature {
+            return Ok((UNCHOSEN[usize::from(is_noisy)], Vec::new(), false));
+        }
+        let candidates: Vec<Candidate> = Candidate::ALL
+            .into_iter()
+            .filter(|c| Self::allows(self.options, *c, is_noisy))
+            .collect();
+        let scores = choice::scores(samples, &candidates, self.hole.polygon.len());
+        let is_tip =
+            options.tips && !choice::is_exact(&scores) && tip::is_tip(self.hole, &samples.band);
+        let closing = is_tip.then(|| tip::closing_candidate(&scores)).flatten();
+        let chosen = closing
+            .or_else(|| choice::choose(&scores, is_noisy))
+            .ok_or_else(|| geometry("the surroundings are too small to predict from"))?;
+        Ok((chosen, scores, closing.is_some()))
+    }
+}
+
+/// Moves patches onto a surface.
+pub(super) struct Marcher<'a> {
+    pub(super) hole: &'a HoleShape,
+    pub(super) surface: &'a dyn Implicit,
+    /// Mean edge length at the rim.
+    pub(super) step: f64,
+    pub(super) is_tip: bool,
+    pub(super) interrupted: &'a dyn Fn() -> bool,
+}
+
+impl Marcher<'_> {
+    fn patch(&self, faired: &PatchSurface, staircase: &mut Staircase<'_>) -> Result<PatchSurface> {
+        self.patch_from(faired, faired, staircase)
+    }
+
+    /// Marches from `start` and checks the result against the faired patch.
+    pub(super) fn patch_from(
+        &self,
+        start: &PatchSurface,
+        faired: &PatchSurface,
+        staircase: &mut Staircase<'_>,
+    ) -> Result<PatchSurface> {
+        let mut patch = start.clone();
+        let (_, mut sizes) = staircase.refined()?;
+        let rim_count = patch.rim_count;
+        let interior = patch.points.len() - rim_count;
+        let finer = if self.is_tip && interior < FEWEST_INTERIOR {
+            FINER_TIP
+        } else if interior == 0 {
+            FINER_RIM
+        } else {
+            1.0
+        };
+        if finer < 1.0 {
+            sizes.iter_mut().for_each(|s| *s *= finer);
+            staircase.refine_again(&mut patch, &mut sizes)?;
+            sizes.iter_mut().for_each(|s| *s /= finer);
+        }
+        let rim = Aabb::around(&self.hole.points);
+        let extent = (rim.hi - rim.lo).max();
+        let limit = LONGEST_STEP * extent;
+        for _ in 0..MOST_ROUNDS {
+            let mut longest: f64 = 0.0;
+            for p in &mut patch.points[rim_count..] {
+                let moved = march::project(self.surface, p, STEPS, limit);
+                longest = longest.max((moved - *p).norm());
+                *p = moved;
+            }
+            if !patch.points.iter().flatten().all(|x| x.is_finite()) {
+                return Err(geometry("the patch ran away from the predicted surface"));
+            }
+            self.unfold(&mut patch, limit);
+            let before = patch.triangles.len() as f64;
+            staircase.refine_again(&mut patch, &mut sizes)?;
+            let growth = (patch.triangles.len() as f64 - before).abs() / before;
+            if longest < SETTLED_MOVE * self.step && growth < SETTLED_GROWTH {
+                break;
+            }
+        }
+        for p in &mut patch.points[rim_count..] {
+            *p = march::project(self.surface, p, LAST_STEPS, limit);
+        }
+        self.unfold(&mut patch, limit);
+        self.blend(&mut patch, limit)?;
+        self.check(&patch, faired, extent)?;
+        Ok(patch)
+    }
+
+    /// Smooths the patch where its triangles turn against the surface, and moves it back onto that.
+    fn unfold(&self, patch: &mut PatchSurface, limit: f64) {
+        let gradient = |p: &Vec3| unit(self.surface.value_and_gradient(p).1);
+        let mut gradients: Vec<Vec3> = patch.points.iter().map(gradient).collect();
+        for _ in 0..MOST_UNFOLDINGS {
+            let mut is_folded = vec![false; patch.points.len()];
+            let mut count = 0;
+            for t in &patch.triangles {
+                let mean: Vec3 = t.iter().map(|&v| gradients[v as usize]).sum();
+                if normal(patch, t).dot(&unit(mean)) < FOLDED {
+                    count += 1;
+                    t.iter().for_each(|&v| is_folded[v as usize] = true);
+                }
+            }
+            if count == 0 {
+                return;
+            }
+            let mut sums = vec![(Vec3::zeros(), 0.0); patch.points.len()];
+            for t in &patch.triangles {
+                for k in 0..3 {
+                    let (v, next) = (t[k] as usize, t[(k + 1) % 3] as usize);
+                    for (at, other) in [(v, next), (next, v)] {
+                        sums[at].0 += patch.points[other];
+                        sums[at].1 += 1.0;
+                    }
+                }
+            }
+            let rim_count = patch.rim_count;
+            for v in rim_count..patch.points.len() {
+                if is_folded[v] {
+                    let middle = sums[v].0 / sums[v].1;
+                    patch.points[v] = march::project(self.surface, &middle, STEPS, limit);
+                    gradients[v] = gradient(&patch.points[v]);
+                }
+            }
+        }
+    }
+
+    /// Adds to the interior what the rim is off the surface, fading inwards.
+    fn blend(&self, patch: &mut PatchSurface, limit: f64) -> Result<()> {
+        let offsets: Vec<Vec3> = patch.points[..patch.rim_count]
+            .iter()
+            .map(|p| p - march::project(self.surface, p, LAST_STEPS, limit))
+            .collect();
+        if patch.points.len() > patch.rim_count {
+            let extended = extend_from_rim(patch, &offsets, &mut SpdSolver::new(self.interrupted))?;
+            for (p, offset) in patch.points[patch.rim_count..].iter_mut().zip(extended) {
+                *p += offset;
+            }
+        }
+        Ok(())
+    }
+
+    /// The gates.
+    fn check(&self, patch: &PatchSurface, faired: &PatchSurface, extent: f64) -> Result<()> {
+        let center = self.hole.points.iter().sum::<Vec3>() / self.hole.points.len().max(1) as f64;
+        let reach = REACH[usize::from(self.is_tip)] * extent;
+        if patch.points.iter().any(|p| (p - center).amax() > reach) {
+            return Err(geometry("the predicted patch runs away from the hole"));
+        }
+        if !patch.points.iter().flatten().all(|x| x.is_finite()) {
+            return Err(geometry("the predicted patch is not finite"));
+        }
+        let folded = folded_share(patch);
+        let count = patch.triangles.len().max(1) as f64;
+        if folded >= FOLDED_SHARE.max(FOLDED_COUNT / count) {
+            return Err(geometry("the predicted patch is folded"));
+        }
+        if area(patch) > AREA_GROWTH[usize::from(self.is_tip)] * area(faired) {
+            return Err(geometry("the predicted patch is far larger than the hole"));
+        }
+        let bent = self.bent_share(patch);
+        if bent > BENT_SHARE && bent > self.bent_share(faired) {
+            return Err(geometry("the predicted patch leaves the rim at an angle"));
+        }
+        Ok(())
+    }
+
+    /// Share of rim edges at which the patch turns away from the mesh.
+    fn bent_share(&self, patch: &PatchSurface) -> f64 {
+        let rim_count = patch.rim_count as u32;
+        let mut normals: Vec<([u32; 2], Vec3)> = Vec::new();
+        for t in &patch.triangles {
+            for k in 0..3 {
+                let edge = [t[k], t[(k + 1) % 3]];
+                if edge.iter().all(|&v| v < rim_count) {
+                    normals.push((edge, normal(patch, t)));
+                }
+            }
+        }
+        normals.sort_unstable_by_key(|&(edge, _)| edge);
+        let polygon = &self.hole.polygon;
+        let mut bent = 0.0;
+        let mut count = 0.0;
+        for (i, outside) in self.hole.outside_normals.iter().enumerate() {
+            let edge = [polygon[i], polygon[(i + 1) % polygon.len()]];
+            let Ok(at) = normals.binary_search_by_key(&edge, |&(edge, _)| edge) else {
+                continue;
+            };
+            if let Some(outside) = outside {
+                count += 1.0;
+                bent += f64::from(u8::from(normals[at].1.dot(outside) < BENT));
+            }
+        }
+        bent / f64::max(count, 1.0)
+    }
+}
+
+fn normal(patch: &PatchSurface, t: &[u32; 3]) -> Vec3 {
+    let [a, b, c] = t.map(|v| &patch.points[v as usize]);
+    unit(cross_normal(a, b, c))
+}
+
+fn area(patch: &PatchSurface) -> f64 {
+    let double = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|v| &patch.points[v as usize]);
+        cross_normal(a, b, c).norm()
+    };
+    patch.triangles.iter().map(double).sum::<f64>() / 2.0
+}
+
+/// Share of triangles that turn away from their surroundings.
+fn folded_share(patch: &PatchSurface) -> f64 {
+    let mut at_vertices = vec![Vec3::zeros(); patch.points.len()];
+    for t in &patch.triangles {
+        let n = normal(patch, t);
+        for k in 0..3 {
+            let p = [0, 1, 2].map(|i| patch.points[t[(k + i) % 3] as usize]);
+            let angle = (p[1] - p[0]).angle(&(p[2] - p[0]));
+            at_vertices[t[k] as usize] += angle * n;
+        }
+    }
+    let is_folded = |t: &[u32; 3]| {
+        let mean: Vec3 = t.iter().map(|&v| unit(at_vertices[v as usize])).sum();
+        normal(patch, t).dot(&unit(mean)) < FOLDED
+    };
+    let folded = patch.triangles.iter().filter(|t| is_folded(t)).count();
+    folded as f64 / patch.triangles.len().max(1) as f64
+}
+
+fn geometry(message: &str) -> Error {
+    Error::new(ErrorKind::Geometry, message)
+}

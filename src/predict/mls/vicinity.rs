@@ -1,0 +1,95 @@
+//! The known points near a rim, through which the height field is fitted.
+
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::Vec3;
+use crate::math::segments::Segments;
+use crate::patch::{HoleShape, Surroundings};
+
+/// The points nearer to the rim than a number of sampling steps, and the triangles between them.
+pub(crate) struct Vicinity {
+    /// The vertices: those of the rim first, then of the surroundings, as [`HoleShape::point`] counts them.
+    pub(crate) vertices: Vec<u32>,
+    /// Their positions.
+    pub(crate) points: Vec<Vec3>,
+    /// Triangles between them, as indices into `points`.
+    pub(crate) triangles: Vec<[u32; 3]>,
+    /// The sampling step (eq. 9).
+    pub(crate) step: f64,
+}
+
+impl Vicinity {
+    /// The points of `surroundings` nearer to the rim than `beta` sampling steps. The surroundings must reach
+    /// so far.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Geometry`] when the triangles at the rim have no area.
+    pub(crate) fn new(hole: &HoleShape, surroundings: &Surroundings, beta: f64) -> Result<Self> {
+        let step = hole.sampling_step();
+        if !(step.is_finite() && step > 0.0) {
+            let message = "the triangles at the rim have no area to take a sampling step from";
+            return Err(Error::new(ErrorKind::Geometry, message));
+        }
+        let rim_count = hole.points.len();
+        let polygon = &hole.polygon;
+        let edges = (0..polygon.len())
+            .map(|i| [polygon[i], polygon[(i + 1) % polygon.len()]])
+            .map(|edge| edge.map(|v| hole.points[v as usize]));
+        let rim = Segments::new(edges.collect());
+        let limit = (beta * step) * (beta * step);
+        let mut vicinity = Self {
+            vertices: (0..rim_count as u32).collect(),
+            points: hole.points.clone(),
+            triangles: Vec::new(),
+            step,
+        };
+        let mut place: Vec<Option<u32>> = vicinity.vertices.iter().copied().map(Some).collect();
+        for (i, p) in surroundings.points.iter().enumerate() {
+            let is_near = rim.distance_sq(p) < limit;
+            place.push(is_near.then_some(vicinity.points.len() as u32));
+            if is_near {
+                vicinity.vertices.push((rim_count + i) as u32);
+                vicinity.points.push(*p);
+            }
+        }
+        for t in &surroundings.triangles {
+            if let [Some(a), Some(b), Some(c)] = t.map(|v| place[v as usize]) {
+                vicinity.triangles.push([a, b, c]);
+            }
+        }
+        Ok(vicinity)
+    }
+}
+
+/// The closed polygons that bound a hole: the outer one and those round islands, in the patch's orientation,
+/// as rim vertices. Bridges between them are left out.
+///
+/// # Errors
+/// [`ErrorKind::Topology`] when two of them share a vertex.
+pub(crate) fn rim_loops(hole: &HoleShape) -> Result<Vec<Vec<u32>>> {
+    let m = hole.polygon.len();
+    let edge = |i: usize| (hole.polygon[i], hole.polygon[(i + 1) % m]);
+    let mut edges: Vec<(u32, u32)> = (0..m).map(edge).collect();
+    edges.sort_unstable();
+    // A bridge is passed both ways.
+    let is_bridge = |&(a, b): &(u32, u32)| edges.binary_search(&(b, a)).is_ok();
+    let mut next: Vec<Option<u32>> = vec![None; hole.points.len()];
+    for (a, b) in edges.iter().copied().filter(|e| !is_bridge(e)) {
+        if next[a as usize].replace(b).is_some() {
+            let message = "an island touches the rim in a vertex";
+            return Err(Error::new(ErrorKind::Topology, message));
+        }
+    }
+    let mut loops = Vec::new();
+    for &start in &hole.polygon {
+        let mut of_loop = Vec::new();
+        let mut at = start;
+        while let Some(to) = next[at as usize].take() {
+            of_loop.push(at);
+            at = to;
+        }
+        if !of_loop.is_empty() {
+            loops.push(of_loop);
+        }
+    }
+    Ok(loops)
+}

@@ -1,0 +1,195 @@
+//! The surfaces that compete to continue the known one.
+
+use super::algebraic::{AlgebraicSurface, Kind};
+use super::choice::FITTED_RINGS;
+use super::frame::Fit;
+use super::hermite_rbf::{HermiteRbf, Kernel};
+use super::primitives::{cone::Cone, cylinder::Cylinder, torus::Torus};
+use super::samples::SampledBand;
+use super::{Implicit, Sample};
+
+/// Most samples of an interpolating function that is scored, and of one that is used: the cost grows with the cube,
+/// the accuracy little.
+const MOST_SCORED_CENTERS: usize = 80;
+const MOST_CENTERS: usize = 140;
+/// Most samples of a surface with few degrees of freedom, algebraic or found by iteration.
+const MOST_LINEAR_SAMPLES: usize = 300;
+const MOST_ITERATED_SAMPLES: usize = 100;
+/// Rings of samples of an interpolating function of the whole surroundings: two determine position, tangent plane
+/// and curvature at the rim, and further ones only cost.
+const LAST_CENTER_LEVEL: u32 = 1;
+/// Ridge of the function that passes by noisy samples, in coordinates of unit spread.
+const RIDGE: f64 = 0.1;
+
+/// A kind of surface that may continue the surroundings of a hole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Candidate {
+    /// Plane.
+    Plane,
+    /// Sphere.
+    Sphere,
+    /// Circular cylinder.
+    Cylinder,
+    /// Circular cone.
+    Cone,
+    /// Torus.
+    Torus,
+    /// Any surface of degree two: ellipsoids, paraboloids, hyperboloids, cylinders, cones.
+    Quadric,
+    /// Darboux cyclide: contains the quadrics and the tori.
+    Cyclide,
+    /// Interpolating function with the kernel `r³`.
+    Cubic,
+    /// The same through smoothed points.
+    CubicSmoothed,
+    /// The same passing by smoothed points.
+    CubicRidge,
+    /// Interpolating function with the kernel `r⁵`.
+    Quintic,
+}
+
+impl Candidate {
+    /// All candidates, in the order in which they are scored: those that rule others out come first.
+    pub const ALL: [Self; 11] = [
+        Self::Quadric,
+        Self::Plane,
+        Self::Sphere,
+        Self::Cyclide,
+        Self::Cubic,
+        Self::Quintic,
+        Self::CubicSmoothed,
+        Self::CubicRidge,
+        Self::Cylinder,
+        Self::Cone,
+        Self::Torus,
+    ];
+
+    /// The name in reports and options.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Plane => "plane",
+            Self::Sphere => "sphere",
+            Self::Cylinder => "cylinder",
+            Self::Cone => "cone",
+            Self::Torus => "torus",
+            Self::Quadric => "quadric",
+            Self::Cyclide => "cyclide",
+            Self::Cubic => "rbf3",
+            Self::CubicSmoothed => "rbf3-smoothed",
+            Self::CubicRidge => "rbf3-ridge",
+            Self::Quintic => "rbf5",
+        }
+    }
+
+    /// Degrees of freedom; for interpolating functions, which have as many as data, numbers that put them last, and
+    /// the less robust ones behind.
+    pub(crate) fn freedom(self) -> u32 {
+        match self {
+            Self::Plane => 3,
+            Self::Sphere => 4,
+            Self::Cylinder => 5,
+            Self::Cone => 6,
+            Self::Torus => 7,
+            Self::Quadric => 9,
+            Self::Cyclide => 13,
+            Self::Cubic => 30,
+            Self::CubicSmoothed => 31,
+            Self::CubicRidge => 32,
+            Self::Quintic => 40,
+        }
+    }
+
+    /// Whether it is a radial basis function.
+    pub(crate) fn interpolates(self) -> bool {
+        self.freedom() >= Self::Cubic.freedom()
+    }
+
+    /// Whether the candidate suits surroundings that are noisy, or not.
+    pub(crate) fn suits(self, is_noisy: bool) -> bool {
+        match self {
+            Self::CubicSmoothed | Self::CubicRidge => is_noisy,
+            Self::Quintic => !is_noisy,
+            _ => true,
+        }
+    }
+
+    /// The candidate that contains or approximates this one and costs less: it must score well for this one to be
+    /// tried.
+    pub(crate) fn gate(self) -> Option<Self> {
+        match self {
+            Self::Plane | Self::Sphere | Self::Cylinder | Self::Cone => Some(Self::Quadric),
+            Self::Torus => Some(Self::Cyclide),
+            _ => None,
+        }
+    }
+
+    /// Most samples that a fit uses when it is scored.
+    pub(crate) fn most_samples(self) -> usize {
+        match self {
+            Self::Cylinder | Self::Cone | Self::Torus => MOST_ITERATED_SAMPLES,
+            _ if self.interpolates() => MOST_SCORED_CENTERS,
+            _ => MOST_LINEAR_SAMPLES,
+        }
+    }
+
+    /// Fits the surface to the vertices.
+    pub(crate) fn fit(
+        self,
+        samples: &mut SampledBand,
+        vertices: &[u32],
+    ) -> Option<Box<dyn Implicit>> {
+        let reads_smoothed = samples.is_noisy() && !matches!(self, Self::Cubic | Self::Quintic);
+        let chosen: Vec<Sample> = vertices
+            .iter()
+            .map(|&v| {
+                if reads_smoothed {
+                    samples.smoothed_sample(v)
+                } else {
+                    samples.sample(v)
+                }
+            })
+            .collect();
+        self.fit_samples(&chosen)
+    }
+
+    /// Fits the surface to the samples.
+    pub(crate) fn fit_samples(self, samples: &[Sample]) -> Option<Box<dyn Implicit>> {
+        let algebraic = |kind| boxed(AlgebraicSurface::fit(kind, samples));
+        let rbf = |kernel, ridge| {
+            HermiteRbf::fit(samples, kernel, ridge).map(|f| Box::new(f) as Box<dyn Implicit>)
+        };
+        match self {
+            Self::Plane => algebraic(Kind::Plane),
+            Self::Sphere => algebraic(Kind::Sphere),
+            Self::Quadric => algebraic(Kind::Quadric),
+            Self::Cyclide => algebraic(Kind::Cyclide),
+            Self::Cylinder => boxed(Cylinder::fit(samples)),
+            Self::Cone => boxed(Cone::fit(samples)),
+            Self::Torus => boxed(Torus::fit(samples)),
+            Self::Cubic | Self::CubicSmoothed => rbf(Kernel::Cubic, 0.0),
+            Self::CubicRidge => rbf(Kernel::Cubic, RIDGE),
+            Self::Quintic => rbf(Kernel::Quintic, 0.0),
+        }
+    }
+
+    /// The surface that continues the surroundings into the hole.
+    pub(crate) fn fit_to_rim(self, samples: &mut SampledBand) -> Option<Box<dyn Implicit>> {
+        let last = match self {
+            Self::Cubic | Self::Quintic => LAST_CENTER_LEVEL,
+            _ => FITTED_RINGS,
+        };
+        let most = if self.interpolates() {
+            MOST_CENTERS
+        } else {
+            self.most_samples()
+        };
+        let vertices = samples.spread(0..last + 1, most);
+        self.fit(samples, &vertices)
+    }
+}
+
+fn boxed<S: Implicit + 'static>(fit: Option<Fit<S>>) -> Option<Box<dyn Implicit>> {
+    fit.map(|f| Box::new(f.surface) as Box<dyn Implicit>)
+}

@@ -1,0 +1,165 @@
+//! Which surface continues the known one best: each candidate predicts rings that it has not seen.
+//!
+//! For `r` = 1, 2, 3 a candidate is fitted to the rings `r` to `r + 3` and compared with the vertices of the rings
+//! below `r`, as if the hole began `r` rings further out. The score is the geometric mean of the three root mean
+//! square distances in units of the rim's edge length: the mean of several keeps noise, which misleads each single
+//! one, from choosing. Candidates that follow every detail pay a factor; among those that are as good as exact the
+//! simplest wins.
+//!
+//! Leave-one-out choice of models goes back to M. Stone, "Cross-validatory choice and assessment of statistical
+//! predictions", Journal of the Royal Statistical Society B 36(2), 1974; leaving out bands towards the hole measures
+//! extrapolation, which is what a hole asks for.
+//!
+//! Not guaranteed: that what predicts three rings well predicts the middle of a hole that is much wider.
+
+use super::candidates::Candidate;
+use super::samples::SampledBand;
+use super::{Implicit, march};
+
+/// Widest band that is left out, in rings, and that which is fitted.
+const MOST_LEFT_OUT: u32 = 3;
+pub(crate) const FITTED_RINGS: u32 = 3;
+/// Rings of the surroundings that the choice reads.
+pub(crate) const RINGS: u32 = 9;
+/// Fewer samples than this are not fitted.
+const FEWEST_SAMPLES: usize = 20;
+/// Vertices that a prediction is compared with, at most.
+const MOST_TESTS: usize = 300;
+/// A point further off than this, in edge lengths, counts as being so far off: runaways shall not dominate means.
+const FARTHEST: f64 = 10.0;
+/// Added to each distance before the logarithm: below it, in edge lengths, files in single precision have no truth.
+const EXACT: f64 = 1e-5;
+/// A score below this, in edge lengths, is the error of the triangulation, not of the candidate.
+const AS_GOOD_AS_EXACT: f64 = 2e-3;
+/// Scores of interpolating functions are multiplied by this: they have more freedom than data.
+const INTERPOLATION_FACTOR: f64 = 1.25;
+/// On noisy surroundings the simplest candidate within this factor of the best is taken.
+const NOISY_TOLERANCE: f64 = 1.12;
+/// The quintic kernel must beat the cubic one by this factor, on surroundings as smooth as [`SMOOTH`] and on others:
+/// it overshoots where the surface has detail.
+const QUINTIC_FACTOR: [f64; 2] = [0.95, 0.6];
+const SMOOTH: f64 = 0.01;
+/// On rims with more edges than this it must beat it by more, in proportion: functions that grow faster are trusted
+/// less far. The middle of such a hole is eight times as many rings away as the widest band that is left out.
+const WIDE_RIM: f64 = 150.0;
+/// A costly candidate is fitted only when the one that contains or approximates it scores within this factor of the
+/// best so far.
+const GATE_FACTOR: f64 = 2.0;
+
+/// A candidate with its score in rim edge lengths; smaller is better.
+pub(crate) type Score = (Candidate, f64);
+
+/// Rim edges per ring of a hole: a rim of six edges round each vertex is one ring away from its middle, one of twelve
+/// two.
+const EDGES_PER_RING: usize = 6;
+
+/// Scores of the candidates that were fitted, in the order of fitting. Left out are bands up to the width of the
+/// hole, at most three rings.
+///
+/// Once a candidate is as good as exact, those with more freedom are not tried any more.
+pub(crate) fn scores(
+    samples: &mut SampledBand,
+    candidates: &[Candidate],
+    rim_edges: usize,
+) -> Vec<Score> {
+    let widest = (rim_edges.div_ceil(EDGES_PER_RING) as u32).clamp(1, MOST_LEFT_OUT);
+    let mut scores: Vec<Score> = Vec::new();
+    for &candidate in candidates {
+        let best = scores.iter().map(|s| s.1).fold(f64::INFINITY, f64::min);
+        let is_settled = scores
+            .iter()
+            .any(|s| s.1 < AS_GOOD_AS_EXACT && s.0.freedom() < candidate.freedom());
+        if is_settled {
+            continue;
+        }
+        let gate = candidate.gate().and_then(|gate| score_of(&scores, gate));
+        if gate.is_some_and(|score| score > AS_GOOD_AS_EXACT.max(GATE_FACTOR * best)) {
+            continue;
+        }
+        let mut score = leave_out_score(samples, candidate, widest);
+        if candidate.interpolates() {
+            score *= INTERPOLATION_FACTOR;
+        }
+        if candidate == Candidate::Quintic
+            && let Some(cubic) = score_of(&scores, Candidate::Cubic)
+            && score > quintic_factor(samples.noise, rim_edges) * cubic
+        {
+            score = score.max(1.01 * cubic);
+        }
+        if score.is_finite() {
+            scores.push((candidate, score));
+        }
+    }
+    scores
+}
+
+fn quintic_factor(noise: f64, rim_edges: usize) -> f64 {
+    QUINTIC_FACTOR[usize::from(noise >= SMOOTH)] * (WIDE_RIM / rim_edges as f64).min(1.0)
+}
+
+/// The score of a candidate, if it has one.
+pub(crate) fn score_of(scores: &[Score], candidate: Candidate) -> Option<f64> {
+    scores.iter().find(|s| s.0 == candidate).map(|s| s.1)
+}
+
+/// The candidate to use: the simplest of those that are as good as exact, else the best.
+pub(crate) fn choose(scores: &[Score], is_noisy: bool) -> Option<Candidate> {
+    let best = scores.iter().map(|s| s.1).min_by(f64::total_cmp)?;
+    let limit = if best < AS_GOOD_AS_EXACT {
+        AS_GOOD_AS_EXACT
+    } else if is_noisy {
+        NOISY_TOLERANCE * best
+    } else {
+        best
+    };
+    scores
+        .iter()
+        .filter(|s| s.1 <= limit)
+        .min_by_key(|s| s.0.freedom())
+        .map(|s| s.0)
+}
+
+/// Whether some candidate is as good as exact.
+pub(crate) fn is_exact(scores: &[Score]) -> bool {
+    scores.iter().any(|s| s.1 < AS_GOOD_AS_EXACT)
+}
+
+/// The geometric mean over the left out bands of the distances to the surface; infinite when nothing could be fitted.
+fn leave_out_score(samples: &mut SampledBand, candidate: Candidate, widest: u32) -> f64 {
+    let mut logarithms = 0.0;
+    let mut count = 0;
+    for r in 1..=widest {
+        let vertices = samples.spread(r..r + FITTED_RINGS + 1, candidate.most_samples());
+        if vertices.len() < FEWEST_SAMPLES {
+            continue;
+        }
+        count += 1;
+        let error = match candidate.fit(samples, &vertices) {
+            Some(surface) => left_out_distance(samples, r, surface.as_ref()),
+            None => return f64::INFINITY,
+        };
+        logarithms += (error + EXACT).ln();
+    }
+    if count == 0 {
+        return f64::INFINITY;
+    }
+    (logarithms / f64::from(count)).exp()
+}
+
+/// Root mean square distance of the vertices below level `r` to the surface, in rim edge lengths.
+fn left_out_distance(samples: &mut SampledBand, r: u32, surface: &dyn Implicit) -> f64 {
+    let vertices = samples.spread(0..r, MOST_TESTS);
+    let mut squares = 0.0;
+    let mut count = 0.0;
+    for &v in &vertices {
+        let distance = march::distance(surface, &samples.band.points[v as usize]) / samples.step;
+        // Not a number counts as far off.
+        squares += if distance < FARTHEST {
+            distance * distance
+        } else {
+            FARTHEST * FARTHEST
+        };
+        count += 1.0;
+    }
+    (squares / f64::max(count, 1.0)).sqrt()
+}

@@ -1,0 +1,78 @@
+//! Circular cylinders.
+
+use super::axis::{Axis, eigenvectors, scatter_of_normals, solve_symmetric};
+use super::{Fitted, Primitive, Shape, fit};
+use crate::math::Vec3;
+use crate::predict::surface::Sample;
+use crate::predict::surface::frame::Fit;
+use nalgebra::{Matrix3, SVector};
+
+/// A circular cylinder. A positive radius makes the normals point away from the axis, a negative one towards it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cylinder {
+    axis: Axis,
+    radius: f64,
+}
+
+impl Cylinder {
+    /// Fits a cylinder to the samples. `None` when they lie in one place, are fewer than its 5 degrees of freedom,
+    /// hold a number that is not finite, or lead to no cylinder.
+    pub(crate) fn fit(samples: &[Sample]) -> Option<Fit<Fitted<Self>>> {
+        fit(samples)
+    }
+}
+
+impl Shape for Cylinder {
+    fn distance_and_normal(&self, p: &Vec3) -> (f64, Vec3) {
+        let (_, distance, away) = self.axis.locate(p);
+        let sign = self.radius.signum();
+        (sign * distance - self.radius, sign * away)
+    }
+}
+
+/// Turning the axis (2), shifting it across (2), the radius.
+impl Primitive<5> for Cylinder {
+    /// The normals of a cylinder are perpendicular to the axis: an eigenvector of `Σ n nᵀ`. For a given axis
+    /// all `p - r n` have the same projection along it, which is linear in it and in `r`.
+    fn starts(samples: &[Sample]) -> Vec<Self> {
+        let axes = eigenvectors(scatter_of_normals(samples));
+        axes.into_iter()
+            .filter_map(|direction| start(direction, samples))
+            .collect()
+    }
+
+    fn moved(&self, step: &SVector<f64, 5>) -> Self {
+        let [u, v] = self.axis.across();
+        let mut axis = self.axis.turned(step[0], step[1]);
+        axis.origin += step[2] * u + step[3] * v;
+        Self {
+            axis,
+            radius: self.radius + step[4],
+        }
+    }
+}
+
+fn start(direction: Vec3, samples: &[Sample]) -> Option<Cylinder> {
+    let axis = Axis {
+        origin: Vec3::zeros(),
+        direction,
+    };
+    let [u, v] = axis.across();
+    let (mut matrix, mut target) = (Matrix3::zeros(), Vec3::zeros());
+    for s in samples {
+        for (k, across) in [u, v].iter().enumerate() {
+            let mut row = Vec3::zeros();
+            row[k] = 1.0;
+            row[2] = s.normal.dot(across);
+            matrix += row * row.transpose();
+            target += row * s.point.dot(across);
+        }
+    }
+    let solution = solve_symmetric(matrix, &target);
+    let origin = solution[0] * u + solution[1] * v;
+    let start = Cylinder {
+        axis: Axis { origin, direction },
+        radius: solution[2],
+    };
+    (start.radius != 0.0).then_some(start)
+}

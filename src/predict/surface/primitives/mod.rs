@@ -1,0 +1,91 @@
+//! Cylinders, cones and tori by non-linear least squares.
+//!
+//! A primitive is moved so that the samples' distances from it and, weighted, the differences between their
+//! normals and its own become small, by the method of K. Levenberg, "A method for the solution of certain
+//! non-linear problems in least squares", Quarterly of Applied Mathematics 2(2), 1944, and D. Marquardt, "An
+//! algorithm for least-squares estimation of nonlinear parameters", SIAM J. Appl. Math. 11(2), 1963. Each kind
+//! says where to start: the normals know the axis.
+
+mod axis;
+pub(crate) mod cone;
+pub(crate) mod cylinder;
+mod levenberg_marquardt;
+#[cfg(test)]
+mod tests;
+pub(crate) mod torus;
+
+use super::frame::{Fit, Frame, rms_distance};
+use super::{Implicit, Sample};
+use crate::math::Vec3;
+use levenberg_marquardt::{Progress, improve};
+use nalgebra::SVector;
+
+/// Steps spent on each start before the better ones are chosen.
+const TRIAL_STEPS: usize = 6;
+
+/// Steps spent on the chosen ones; a good start needs five to ten.
+const STEPS: usize = 40;
+
+/// Starts that are followed to the end.
+const FINALISTS: usize = 2;
+
+/// Samples per degree of freedom below which a fit means nothing.
+const SAMPLES_PER_FREEDOM: usize = 1;
+
+/// A surface with a closed formula for the distance from it.
+pub(crate) trait Shape: Copy + Send + Sync {
+    /// The distance of `p`, negative behind the surface, and its gradient, a unit vector.
+    fn distance_and_normal(&self, p: &Vec3) -> (f64, Vec3);
+}
+
+/// A surface with `D` degrees of freedom that knows where to begin.
+pub(crate) trait Primitive<const D: usize>: Shape {
+    /// Where to begin, for samples of the size one round the origin.
+    fn starts(samples: &[Sample]) -> Vec<Self>;
+
+    /// The surface after a small step in its degrees of freedom.
+    fn moved(&self, step: &SVector<f64, D>) -> Self;
+}
+
+/// A primitive in the coordinates of the samples that it was fitted to.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fitted<P> {
+    primitive: P,
+    frame: Frame,
+}
+
+/// Fits a primitive to the samples. `None` when they lie in one place, are fewer than its degrees of freedom,
+/// hold a number that is not finite, or do not determine one (as coplanar samples determine no cylinder).
+///
+/// # Complexity
+/// Linear in the number of samples, with some hundred evaluations of the distance per sample and start.
+fn fit<const D: usize, P: Primitive<D>>(samples: &[Sample]) -> Option<Fit<Fitted<P>>> {
+    if samples.len() < SAMPLES_PER_FREEDOM * D {
+        return None;
+    }
+    let frame = Frame::around(samples)?;
+    let scaled = frame.enter_all(samples);
+    let mut trials: Vec<(f64, P)> = P::starts(&scaled)
+        .into_iter()
+        .filter_map(|start| improve(start, &scaled, TRIAL_STEPS))
+        .map(|Progress { cost, primitive }| (cost, primitive))
+        .collect();
+    trials.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let finalists = trials.into_iter().take(FINALISTS);
+    let best = finalists
+        .filter_map(|(_, trial)| improve(trial, &scaled, STEPS))
+        .min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+    let surface = Fitted {
+        primitive: best.primitive,
+        frame,
+    };
+    let rms = rms_distance(&surface, samples)?;
+    Some(Fit { surface, rms })
+}
+
+impl<P: Shape> Implicit for Fitted<P> {
+    fn value_and_gradient(&self, p: &Vec3) -> (f64, Vec3) {
+        let (distance, normal) = self.primitive.distance_and_normal(&self.frame.enter(p));
+        (self.frame.leave_value(distance), normal)
+    }
+}

@@ -1,0 +1,82 @@
+//! Whether a hole is the missing tip of a horn.
+//!
+//! Where the surface stands steeply on the plane of a small rim and closes in on the hole, what is missing is the end
+//! of something long. Interpolating functions round such ends off too early; a quadric, fitted to a converging tube,
+//! is an ellipsoid or a paraboloid and closes like one.
+
+use super::candidates::Candidate;
+use super::choice::{Score, score_of};
+use super::jets::Band;
+use crate::math::Vec3;
+use crate::patch::HoleShape;
+use nalgebra::{Matrix3, SymmetricEigen};
+
+/// Mean angle between the normals of the triangles at the rim and that of the rim's plane, at least.
+const STEEP: f64 = 60.0 * std::f64::consts::PI / 180.0;
+/// Spread of the rim across its plane over that along it, at most.
+const FLAT: f64 = 0.35;
+/// Edges of the rim, fewer than this: the end of something wide is no tip.
+const SMALL: usize = 80;
+/// Mean component of the normals towards the hole, at least: 0 is a tube of constant width, which has no tip to grow.
+const CONVERGING: f64 = 0.08;
+
+/// A surface that closes is used when its score is within this factor of the best.
+const TOLERANCE: f64 = 1.3;
+
+/// The surface that closes a tip, if it predicts well: the quadric, or the cone where that has the better score.
+pub(crate) fn closing_candidate(scores: &[Score]) -> Option<Candidate> {
+    let best = scores.iter().map(|s| s.1).min_by(f64::total_cmp)?;
+    let quadric = score_of(scores, Candidate::Quadric)?;
+    let cone = score_of(scores, Candidate::Cone).filter(|&cone| cone < quadric);
+    if quadric.min(cone.unwrap_or(quadric)) >= TOLERANCE * best {
+        None
+    } else if cone.is_some() {
+        Some(Candidate::Cone)
+    } else {
+        Some(Candidate::Quadric)
+    }
+}
+
+/// Judges by the rim, its normals and the direction in which the surroundings end.
+pub(crate) fn is_tip(hole: &HoleShape, band: &Band) -> bool {
+    let rim = &hole.points;
+    let normals: Vec<Vec3> = hole.outside_normals.iter().flatten().copied().collect();
+    if rim.len() >= SMALL || normals.is_empty() {
+        return false;
+    }
+    let mean = |points: &mut dyn Iterator<Item = Vec3>| {
+        let (mut sum, mut count) = (Vec3::zeros(), 0.0);
+        points.for_each(|p| {
+            sum += p;
+            count += 1.0;
+        });
+        sum / f64::max(count, 1.0)
+    };
+    let center = mean(&mut rim.iter().copied());
+    let behind = mean(
+        &mut (0..band.points.len())
+            .filter(|&v| band.levels[v] == 1)
+            .map(|v| band.points[v]),
+    );
+    let mut spread = Matrix3::zeros();
+    for p in rim {
+        spread += (p - center) * (p - center).transpose();
+    }
+    if !spread.iter().all(|x| x.is_finite()) {
+        return false;
+    }
+    let eigen = SymmetricEigen::new(spread);
+    let across = eigen.eigenvalues.imin();
+    let axis: Vec3 = eigen.eigenvectors.column(across).into();
+    let count = normals.len() as f64;
+    let angle = normals
+        .iter()
+        .map(|n| n.dot(&axis).abs().min(1.0).acos())
+        .sum::<f64>()
+        / count;
+    let onwards = axis * (center - behind).dot(&axis).signum();
+    let lean = normals.iter().map(|n| n.dot(&onwards)).sum::<f64>() / count;
+    angle > STEEP
+        && eigen.eigenvalues[across] < FLAT * FLAT * eigen.eigenvalues.max()
+        && lean > CONVERGING
+}

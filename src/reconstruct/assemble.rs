@@ -1,0 +1,275 @@
+//! The surface from the stars of all points.
+//!
+//! Based on M. Gopi, S. Krishnan, A fast and efficient projection based approach for surface reconstruction,
+//! International Journal of High Performance Computer Graphics, Multimedia and Visualisation 1(1), 2000: each
+//! point chooses its triangles in its tangent plane, triangles are added one at a time where they fit, and
+//! every triangle has input points as corners. There the surface grows from a seed; here the stars are made
+//! independently of each other, and triangles are added in an order that does not depend on a seed: first
+//! those that all three corners chose, then those of two, then those of one, small circles first.
+//!
+//! Where stars disagree this leaves small polygons. They are closed by growing from their edges, smallest
+//! circle first, as long as triangles stay within the limit.
+//!
+//! Complexity: O(n k) for n points with k neighbours, O(n log n) to sort.
+
+use super::cloud::{Cloud, Neighbours, for_all};
+use super::reach::{RIM_SHARE, circumradius, limits};
+use super::star::Star;
+use super::surface::{Surface, from_lowest, rotations};
+use super::tangent::Tangent;
+use super::{THINGS_PER_CHECK, gaps};
+use crate::error::{Error, Result};
+use rayon::prelude::*;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// Most neighbours that a star is made from where the nearest ones do not reach as far as the limit.
+const MOST_NEIGHBOURS: usize = 200;
+
+/// Chooses the triangles.
+pub(super) struct Assembler<'a> {
+    pub(super) cloud: &'a Cloud,
+    pub(super) neighbours: &'a Neighbours,
+    /// `None` for points without a normal.
+    pub(super) tangents: &'a [Option<Tangent>],
+    /// The largest radius of a triangle's circle, if the caller gave it, in the cloud's unit.
+    pub(super) radius: Option<f64>,
+    pub(super) interrupted: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// The surface, and how large its triangles could be.
+pub(super) struct Assembled {
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// The largest radius of a triangle's circle at each point.
+    pub(super) limits: Vec<f64>,
+}
+
+/// A triangle that points chose, from its lowest index on.
+#[derive(Clone, Copy, PartialEq)]
+struct Candidate {
+    votes: u8,
+    radius: f64,
+    corners: [u32; 3],
+}
+
+impl Candidate {
+    fn order(&self, other: &Self) -> std::cmp::Ordering {
+        let by_votes = other.votes.cmp(&self.votes);
+        let by_radius = || self.radius.total_cmp(&other.radius);
+        by_votes
+            .then_with(by_radius)
+            .then(self.corners.cmp(&other.corners))
+    }
+}
+
+impl Assembler<'_> {
+    /// Makes the surface.
+    ///
+    /// # Errors
+    /// `Cancelled` when the caller asked to stop.
+    pub(super) fn run(&self) -> Result<Assembled> {
+        let near = for_all(self.cloud.len(), self.interrupted, |v| {
+            self.star(v, self.neighbours.of(v))
+        })?;
+        let limits = self.limits(&near)?;
+        let stars = for_all(self.cloud.len(), self.interrupted, |v| {
+            self.choice(v, &near[v as usize], limits[v as usize])
+        })?;
+        let candidates = self.candidates(&stars, &limits);
+        let mut surface = Surface::new(self.cloud, self.tangents);
+        for chunk in candidates.chunks(THINGS_PER_CHECK) {
+            self.check()?;
+            for candidate in chunk {
+                surface.add(candidate.corners);
+            }
+        }
+        self.close_gaps(&mut surface, &limits)?;
+        if self.radius.is_none() {
+            surface.peel(|t| self.radius(t) - RIM_SHARE * largest_limit(&limits, t));
+        }
+        surface.separate_fans();
+        let normal = |v: u32| self.tangents[v as usize].as_ref().map(|t| t.normal);
+        gaps::close_small_holes(&mut surface, &self.cloud.points, normal, |t| {
+            largest_limit(&limits, t)
+        });
+        Ok(Assembled {
+            triangles: surface.triangles(),
+            limits,
+        })
+    }
+
+    fn check(&self) -> Result<()> {
+        if (self.interrupted)() {
+            return Err(Error::cancelled());
+        }
+        Ok(())
+    }
+
+    fn limits(&self, stars: &[Star]) -> Result<Vec<f64>> {
+        if let Some(radius) = self.radius {
+            return Ok(vec![radius; stars.len()]);
+        }
+        let radii = for_all(stars.len(), self.interrupted, |v| {
+            let sectors = stars[v as usize].sectors();
+            let radii = sectors.map(|[a, b]| self.radius([v, a, b]));
+            radii.filter(|r| r.is_finite()).collect()
+        })?;
+        limits(self.cloud, self.neighbours, &radii, self.interrupted)
+    }
+
+    fn radius(&self, corners: [u32; 3]) -> f64 {
+        circumradius(corners.map(|v| self.cloud.points[v as usize]))
+    }
+
+    /// The star of `v` among `near`, without the points that face the other way.
+    fn star(&self, v: u32, near: &[u32]) -> Star {
+        let tangent = self.tangents[v as usize].as_ref();
+        let alike = near.iter().copied().filter(|&w| {
+            let pair = tangent.zip(self.tangents[w as usize].as_ref());
+            pair.is_some_and(|(t, other)| t.normal.dot(&other.normal) > 0.0)
+        });
+        let places = alike.map(|w| (w, self.cloud.points[w as usize]));
+        match tangent {
+            Some(tangent) => Star::new(v, tangent, places),
+            None => Star::empty(v),
+        }
+    }
+
+    /// The sectors of the star of `v` within the limit; the star is made anew among more points if those that
+    /// it was made from may have missed one.
+    fn choice(&self, v: u32, star: &Star, limit: f64) -> Vec<[u32; 2]> {
+        let near = self.neighbours.of(v);
+        let within = |star: &Star| -> Vec<[u32; 2]> {
+            let sectors = star.sectors();
+            sectors
+                .filter(|&[a, b]| self.radius([v, a, b]) <= limit)
+                .collect()
+        };
+        let chosen = within(star);
+        let reached = near.last().map_or(0.0, |&w| {
+            (self.cloud.points[w as usize] - self.cloud.points[v as usize]).norm()
+        });
+        // A circle through the centre reaches as far as its diameter; a gap may be closed by any point within
+        // that of the limit.
+        let largest = chosen
+            .iter()
+            .map(|&[a, b]| self.radius([v, a, b]))
+            .fold(0.0, f64::max);
+        let needed = if star.is_closed() && chosen.len() == star.sectors().count() {
+            2.0 * largest
+        } else {
+            2.0 * limit
+        };
+        if needed <= reached || near.len() + 1 >= self.cloud.len() {
+            return chosen;
+        }
+        let wider = self.cloud.within(v, needed, MOST_NEIGHBOURS);
+        if wider.len() <= near.len() {
+            return chosen;
+        }
+        within(&self.star(v, &wider))
+    }
+
+    /// The triangles of all stars in the order in which they are tried.
+    fn candidates(&self, stars: &[Vec<[u32; 2]>], limits: &[f64]) -> Vec<Candidate> {
+        let mut chosen: Vec<[u32; 3]> = (0..)
+            .zip(stars)
+            .flat_map(|(v, sectors)| sectors.iter().map(move |&[a, b]| from_lowest([v, a, b])))
+            .collect();
+        chosen.par_sort_unstable();
+        let mut candidates: Vec<Candidate> = chosen
+            .chunk_by(|a, b| a == b)
+            .map(|same| Candidate {
+                votes: same.len().min(3) as u8,
+                radius: self.radius(same[0]),
+                corners: same[0],
+            })
+            .filter(|c| c.radius <= largest_limit(limits, c.corners))
+            .collect();
+        candidates.par_sort_unstable_by(Candidate::order);
+        candidates
+    }
+
+    /// Closes what the stars left open as long as triangles stay within the limit.
+    fn close_gaps(&self, surface: &mut Surface, limits: &[f64]) -> Result<()> {
+        let mut queue = BinaryHeap::new();
+        for side in surface.boundary() {
+            self.queue_triangles(surface, limits, side, &mut queue);
+        }
+        let mut steps = 0;
+        while let Some(Reverse(Queued { corners, .. })) = queue.pop() {
+            steps += 1;
+            if steps % THINGS_PER_CHECK == 0 {
+                self.check()?;
+            }
+            if !surface.add(corners) {
+                continue;
+            }
+            for [a, b, _] in rotations(corners) {
+                if !surface.has_side(b, a) {
+                    self.queue_triangles(surface, limits, [a, b], &mut queue);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Queues the triangles that fit on the open side of a -> b.
+    fn queue_triangles(
+        &self,
+        surface: &Surface,
+        limits: &[f64],
+        [a, b]: [u32; 2],
+        queue: &mut BinaryHeap<Reverse<Queued>>,
+    ) {
+        let mut thirds: Vec<u32> = [a, b]
+            .iter()
+            .flat_map(|&v| self.neighbours.of(v))
+            .copied()
+            .filter(|&c| c != a && c != b && !surface.is_surrounded(c))
+            .collect();
+        thirds.sort_unstable();
+        thirds.dedup();
+        for c in thirds {
+            let corners = from_lowest([b, a, c]);
+            let radius = self.radius(corners);
+            if radius <= largest_limit(limits, corners) && surface.fits(corners) {
+                queue.push(Reverse(Queued { radius, corners }));
+            }
+        }
+    }
+}
+
+/// A triangle that waits to be added; the smallest circle comes first.
+struct Queued {
+    radius: f64,
+    corners: [u32; 3],
+}
+
+impl Ord for Queued {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        let by_radius = self.radius.total_cmp(&other.radius);
+        by_radius.then(self.corners.cmp(&other.corners))
+    }
+}
+
+impl PartialOrd for Queued {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Queued {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Queued {}
+
+fn largest_limit(limits: &[f64], corners: [u32; 3]) -> f64 {
+    corners
+        .iter()
+        .map(|&v| limits[v as usize])
+        .fold(0.0, f64::max)
+}

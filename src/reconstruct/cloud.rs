@@ -1,0 +1,190 @@
+//! The distinct points of a cloud, in coordinates of its own, with their nearest neighbours.
+//!
+//! Neighbours come from an R*-tree (the crate `rstar`), bulk loaded. Equal distances are ordered by index.
+//!
+//! Complexity: O(n log n) to build; O(k log n) for k neighbours.
+
+use super::THINGS_PER_CHECK;
+use crate::error::{Error, Result};
+use crate::math::Vec3;
+use rayon::prelude::*;
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
+
+type Entry = GeomWithData<[f64; 3], u32>;
+
+/// Points at different places, numbered in the order of the caller's positions.
+pub(super) struct Cloud {
+    /// Coordinates with the origin in the middle of the cloud, divided by a power of two, so that the longest
+    /// side of the bounding box is between one half and one (zero if all points coincide).
+    pub(super) points: Vec<Vec3>,
+    /// The caller's index of each point; ascending.
+    pub(super) sources: Vec<u32>,
+    /// What a length in the caller's units is multiplied by.
+    pub(super) scale: f64,
+    tree: RTree<Entry>,
+}
+
+impl Cloud {
+    /// Takes the distinct ones of `positions`; of points at one place, the first.
+    ///
+    /// # Errors
+    /// [`ErrorKind::InvalidInput`] when a coordinate is not finite, the extent overflows, or there are more
+    /// points than 32-bit indices can name.
+    pub(super) fn new(positions: &[[f64; 3]]) -> Result<Self> {
+        if positions.len() >= u32::MAX as usize {
+            return Err(Error::invalid(format!(
+                "{} points are too many",
+                positions.len()
+            )));
+        }
+        if let Some(v) = positions
+            .iter()
+            .position(|p| !p.iter().all(|c| c.is_finite()))
+        {
+            let [x, y, z] = positions[v];
+            return Err(Error::invalid(format!(
+                "point {v} is not finite: ({x}, {y}, {z})"
+            )));
+        }
+        let (middle, scale) = frame_of(positions)?;
+        let local = |p: &[f64; 3]| {
+            // Adding zero makes the two zeros equal.
+            Vec3::from_fn(|axis, _| (p[axis] - middle[axis]) * scale + 0.0)
+        };
+        let all: Vec<Vec3> = positions.iter().map(local).collect();
+        let sources = first_of_each_place(&all);
+        let points: Vec<Vec3> = sources.iter().map(|&v| all[v as usize]).collect();
+        let entries = points
+            .iter()
+            .zip(0..)
+            .map(|(p, v)| Entry::new((*p).into(), v));
+        Ok(Self {
+            tree: RTree::bulk_load(entries.collect()),
+            points,
+            sources,
+            scale,
+        })
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// The `count` points nearest to point `v`, itself left out, nearest first.
+    pub(super) fn nearest(&self, v: u32, count: usize) -> Vec<u32> {
+        let at = self.points[v as usize];
+        let found = self.tree.nearest_neighbor_iter(at.into());
+        let others = found.map(|entry| entry.data).filter(|&w| w != v);
+        self.in_order(v, others.take(count).collect())
+    }
+
+    /// The points within `radius` of point `v`, itself left out, nearest first, `most` at most.
+    pub(super) fn within(&self, v: u32, radius: f64, most: usize) -> Vec<u32> {
+        let at = self.points[v as usize];
+        let found = self.tree.nearest_neighbor_iter(at.into());
+        let near = found
+            .take_while(|entry| (Vec3::from(*entry.geom()) - at).norm_squared() <= radius * radius);
+        let others = near.map(|entry| entry.data).filter(|&w| w != v);
+        self.in_order(v, others.take(most).collect())
+    }
+
+    /// The `count` nearest neighbours of every point.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Cancelled`] when `interrupted` returns true.
+    pub(super) fn all_nearest(
+        &self,
+        count: usize,
+        interrupted: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Neighbours> {
+        let count = count.min(self.len().saturating_sub(1));
+        let lists = for_all(self.len(), interrupted, |v| self.nearest(v, count))?;
+        Ok(Neighbours {
+            count,
+            flat: lists.concat(),
+        })
+    }
+
+    fn in_order(&self, v: u32, mut found: Vec<u32>) -> Vec<u32> {
+        let at = self.points[v as usize];
+        let distance = |w: u32| (self.points[w as usize] - at).norm_squared();
+        found.sort_by(|&a, &b| distance(a).total_cmp(&distance(b)).then(a.cmp(&b)));
+        found
+    }
+}
+
+/// Lists of equal length, one for each point.
+pub(super) struct Neighbours {
+    count: usize,
+    flat: Vec<u32>,
+}
+
+impl Neighbours {
+    /// The neighbours of `v`, nearest first.
+    pub(super) fn of(&self, v: u32) -> &[u32] {
+        &self.flat[v as usize * self.count..][..self.count]
+    }
+}
+
+/// `make(v)` for all `v` below `count`, in order, made in parallel.
+///
+/// # Errors
+/// [`ErrorKind::Cancelled`] when `interrupted` returns true.
+pub(super) fn for_all<T: Send>(
+    count: usize,
+    interrupted: &(dyn Fn() -> bool + Sync),
+    make: impl Fn(u32) -> T + Sync,
+) -> Result<Vec<T>> {
+    // `Cloud::new` has checked that 32 bits are enough.
+    let made: Option<Vec<Vec<T>>> = (0..count)
+        .step_by(THINGS_PER_CHECK)
+        .collect::<Vec<_>>()
+        .into_par_iter()
+        .map(|start| {
+            let end = count.min(start + THINGS_PER_CHECK);
+            (!interrupted()).then(|| (start as u32..end as u32).map(&make).collect())
+        })
+        .collect();
+    let made = made.ok_or_else(Error::cancelled)?;
+    Ok(made.into_iter().flatten().collect())
+}
+
+/// The middle of the bounding box, and a power of two that brings its longest side to between 1/2 and 1.
+fn frame_of(positions: &[[f64; 3]]) -> Result<([f64; 3], f64)> {
+    let mut low = [f64::INFINITY; 3];
+    let mut high = [f64::NEG_INFINITY; 3];
+    for p in positions {
+        for axis in 0..3 {
+            low[axis] = low[axis].min(p[axis]);
+            high[axis] = high[axis].max(p[axis]);
+        }
+    }
+    let extent = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
+    if extent == f64::INFINITY {
+        return Err(Error::invalid(
+            "the points lie too far apart for double precision".to_owned(),
+        ));
+    }
+    let middle = [0, 1, 2].map(|k| low[k] + (high[k] - low[k]) / 2.0);
+    // Half of the exponent range at either end would make the power or its use overflow.
+    let exponent = (-extent.log2().floor() - 1.0).clamp(-1020.0, 1020.0);
+    Ok((middle, if extent > 0.0 { exponent.exp2() } else { 1.0 }))
+}
+
+/// The indices of the first point at each place, ascending.
+fn first_of_each_place(points: &[Vec3]) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    let place = |v: u32| points[v as usize];
+    order.par_sort_unstable_by(|&a, &b| {
+        let (p, q) = (place(a), place(b));
+        let by_axis = |k: usize| p[k].total_cmp(&q[k]);
+        by_axis(0)
+            .then_with(|| by_axis(1))
+            .then_with(|| by_axis(2))
+            .then(a.cmp(&b))
+    });
+    order.dedup_by(|later, first| place(*later) == place(*first));
+    order.sort_unstable();
+    order
+}

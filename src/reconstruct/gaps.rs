@@ -1,0 +1,100 @@
+//! Small holes between samples that are left when every triangle has been tried that fits in the tangent planes.
+//!
+//! Such a hole has few edges and triangles within the limit close it, but in some corner's tangent plane they
+//! overlap their neighbours, as where noise or a crease tilts the plane. What counts here is the connectivity,
+//! and that the triangles face the same side as their corners.
+//!
+//! Complexity: linear in the boundary.
+
+use super::reach::circumradius;
+use super::surface::Surface;
+use crate::math::{Vec3, cross_normal};
+
+/// Most edges of a hole that is closed. A hole of 6 edges is what one missing point leaves in a regular mesh.
+const MOST_EDGES: usize = 6;
+
+/// Closes the holes of few edges whose triangles have circles of at most `limit(corners)`; all of a hole or
+/// nothing. Every point must have one fan.
+pub(super) fn close_small_holes(
+    surface: &mut Surface,
+    points: &[Vec3],
+    normal: impl Fn(u32) -> Option<Vec3>,
+    limit: impl Fn([u32; 3]) -> f64,
+) {
+    for hole in small_loops(surface) {
+        let added = clip_ears(surface, &hole, |corners| {
+            let [a, b, c] = corners.map(|v| points[v as usize]);
+            let facing = cross_normal(&a, &b, &c);
+            let is_alike = |&v: &u32| normal(v).is_some_and(|n| n.dot(&facing) > 0.0);
+            let radius = circumradius([a, b, c]);
+            (radius <= limit(corners) && corners.iter().all(is_alike)).then_some(radius)
+        });
+        if let Err(added) = added {
+            for triangle in added {
+                surface.remove(triangle);
+            }
+        }
+    }
+}
+
+/// The boundary loops of few edges, as the triangles beside them run.
+fn small_loops(surface: &Surface) -> Vec<Vec<u32>> {
+    let sides = surface.boundary();
+    let next = |v: u32| {
+        let at = sides.partition_point(|side| side[0] < v);
+        sides
+            .get(at)
+            .filter(|side| side[0] == v)
+            .map(|side| side[1])
+    };
+    let trace = |start: u32| {
+        let mut vertices = vec![start];
+        let mut at = next(start)?;
+        while at != start {
+            // Each loop is found from its lowest vertex.
+            if at < start || vertices.len() == MOST_EDGES {
+                return None;
+            }
+            vertices.push(at);
+            at = next(at)?;
+        }
+        Some(vertices)
+    };
+    sides.iter().filter_map(|side| trace(side[0])).collect()
+}
+
+/// Triangulates a loop from its best ears on; `cost` refuses triangles or orders them.
+///
+/// # Errors
+/// The triangles that were added before none was left that fits.
+fn clip_ears(
+    surface: &mut Surface,
+    hole: &[u32],
+    cost: impl Fn([u32; 3]) -> Option<f64>,
+) -> Result<(), Vec<[u32; 3]>> {
+    let mut rest = hole.to_vec();
+    let mut added = Vec::new();
+    while rest.len() >= 3 {
+        let count = rest.len();
+        let ears = (0..count).filter_map(|k| {
+            let [a, b, c] = [0, 1, 2].map(|j| rest[(k + j) % count]);
+            let is_joined = count > 3 && (surface.has_side(a, c) || surface.has_side(c, a));
+            // Against the direction of the sides.
+            let ear = [c, b, a];
+            let is_free = !is_joined && surface.connects(ear);
+            let cost = if is_free { cost(ear) } else { None };
+            cost.map(|cost| (cost, k, ear))
+        });
+        let best = ears.min_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+        let Some((_, k, ear)) = best else {
+            return Err(added);
+        };
+        surface.insert(ear);
+        added.push(ear);
+        if count == 3 {
+            break;
+        }
+        rest.remove((k + 1) % count);
+    }
+    Ok(())
+}

@@ -1,0 +1,94 @@
+//! Normals of points, as lines without a sign: the direction in which the nearest points spread least.
+//!
+//! Based on H. Hoppe, T. DeRose, T. Duchamp, J. McDonald, W. Stuetzle, Surface reconstruction from
+//! unorganized points, SIGGRAPH 1992, section 3.1: the eigenvector of the smallest eigenvalue of the
+//! covariance of the neighbours. Where the nearest points lie along a line, as on a scan line, they say
+//! nothing about the plane, and more of them are taken.
+//!
+//! Complexity: O(k) per point for k neighbours. Across a crease the normal is a mean of both sides.
+
+use super::cloud::{Cloud, Neighbours, for_all};
+use crate::error::Result;
+use crate::math::Vec3;
+use nalgebra::{Matrix3, SymmetricEigen};
+
+/// Neighbours that determine a normal.
+pub(super) const NORMAL_NEIGHBOURS: usize = 12;
+/// A neighbourhood counts as a line where its spread across is less than this share of that along it.
+const LINE_SPREAD: f64 = 0.15;
+/// How many times as many neighbours are tried where the nearest ones are a line.
+const WIDER: [usize; 2] = [2, 4];
+
+/// Unit normals: the `known` ones, else estimated, of either sign; zero where the points near are on a line.
+///
+/// # Errors
+/// `Cancelled` when `interrupted` returns true.
+pub(super) fn estimate(
+    cloud: &Cloud,
+    neighbours: &Neighbours,
+    known: &[Option<Vec3>],
+    interrupted: &(dyn Fn() -> bool + Sync),
+) -> Result<Vec<Vec3>> {
+    for_all(cloud.len(), interrupted, |v| {
+        if let Some(normal) = known[v as usize] {
+            return normal;
+        }
+        let near = neighbours.of(v);
+        let first = spread(cloud, v, &near[..near.len().min(NORMAL_NEIGHBOURS)]);
+        if !first.is_line() {
+            return first.normal();
+        }
+        let mut best = first;
+        for factor in WIDER {
+            let wider = spread(cloud, v, &cloud.nearest(v, factor * NORMAL_NEIGHBOURS));
+            best = wider;
+            if !best.is_line() {
+                break;
+            }
+        }
+        best.normal()
+    })
+}
+
+/// The principal directions of a neighbourhood, by ascending variance.
+struct Spread {
+    variances: [f64; 3],
+    across: Vec3,
+}
+
+impl Spread {
+    fn is_line(&self) -> bool {
+        self.variances[1] < LINE_SPREAD * LINE_SPREAD * self.variances[2]
+    }
+
+    /// The direction of least spread, if there is one.
+    fn normal(&self) -> Vec3 {
+        let has_plane = self.variances[1] > self.variances[2] * f64::EPSILON;
+        if has_plane && self.across.iter().all(|c| c.is_finite()) {
+            self.across
+        } else {
+            Vec3::zeros()
+        }
+    }
+}
+
+fn spread(cloud: &Cloud, v: u32, near: &[u32]) -> Spread {
+    let at = cloud.points[v as usize];
+    let offsets = || near.iter().map(|&w| cloud.points[w as usize] - at);
+    let count = near.len() as f64 + 1.0;
+    let centroid = offsets().sum::<Vec3>() / count;
+    // The farthest is the last; relative to it nothing underflows.
+    let unit = offsets().next_back().map_or(1.0, |d| d.norm());
+    let mut covariance = Matrix3::zeros();
+    for d in offsets().chain(std::iter::once(Vec3::zeros())) {
+        let d = (d - centroid) / unit;
+        covariance += d * d.transpose();
+    }
+    let eigen = SymmetricEigen::new(covariance / count);
+    let mut order = [0, 1, 2];
+    order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
+    Spread {
+        variances: order.map(|k| eigen.eigenvalues[k].max(0.0)),
+        across: eigen.eigenvectors.column(order[0]).into(),
+    }
+}

@@ -1,0 +1,155 @@
+//! The triangles round one point: its star in the Delaunay triangulation of its tangent plane.
+//!
+//! Based on M. Gopi, S. Krishnan, C. Silva, Surface reconstruction based on lower dimensional localized
+//! Delaunay triangulation, Eurographics 2000: the neighbours of a point are turned into its tangent plane, and
+//! those that are its Delaunay neighbours there are kept. They are inserted one by one, nearest first, into a
+//! cyclic list; only the triangles at the point itself are ever looked at.
+//!
+//! Points on a common circle are triangulated from the one with the lowest index, whichever star asks, so that
+//! stars on a grid agree.
+//!
+//! Complexity: O(k d) for k neighbours and d Delaunay neighbours.
+
+use super::tangent::{Place, Tangent, in_circle, is_between, turn};
+use crate::math::Vec3;
+
+/// The Delaunay neighbours of a point in its tangent plane, counter-clockwise.
+pub(super) struct Star {
+    centre: u32,
+    ring: Vec<(u32, Place)>,
+}
+
+impl Star {
+    /// The star of `centre` among `neighbours`, nearest first.
+    pub(super) fn new(
+        centre: u32,
+        tangent: &Tangent,
+        neighbours: impl Iterator<Item = (u32, Vec3)>,
+    ) -> Self {
+        let mut star = Self::empty(centre);
+        for (index, position) in neighbours {
+            if let Some(place) = tangent.place(&position) {
+                star.insert(index, place);
+            }
+        }
+        star
+    }
+
+    /// No triangles.
+    pub(super) fn empty(centre: u32) -> Self {
+        Self {
+            centre,
+            ring: Vec::new(),
+        }
+    }
+
+    /// The pairs of ring vertices that form a triangle with the centre, counter-clockwise.
+    pub(super) fn sectors(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
+        let count = self.ring.len();
+        (0..count).filter_map(move |k| {
+            let (a, p) = self.ring[k];
+            let (b, q) = self.ring[(k + 1) % count];
+            (turn(p, q) > 0.0).then_some([a, b])
+        })
+    }
+
+    /// Whether the triangles surround the centre.
+    pub(super) fn is_closed(&self) -> bool {
+        self.ring.len() >= 3 && self.sectors().count() == self.ring.len()
+    }
+
+    fn insert(&mut self, index: u32, place: Place) {
+        let Some(at) = self.slot(place) else {
+            return;
+        };
+        let count = self.ring.len();
+        if count >= 2 {
+            let before = self.ring[(at + count - 1) % count];
+            let after = self.ring[at % count];
+            if turn(before.1, after.1) > 0.0 && !self.prefers((index, place), before, after) {
+                return;
+            }
+        }
+        self.ring.insert(at, (index, place));
+        self.drop_after(index);
+        self.drop_before(index);
+    }
+
+    /// Where `place` belongs in the ring; `None` behind a neighbour in the same direction.
+    fn slot(&self, place: Place) -> Option<usize> {
+        let is_behind = |p: Place| turn(p, place) == 0.0 && p.x * place.x + p.y * place.y > 0.0;
+        if self.ring.iter().any(|&(_, p)| is_behind(p)) {
+            return None;
+        }
+        let count = self.ring.len();
+        if count <= 1 {
+            return Some(count);
+        }
+        (0..count).find_map(|k| {
+            let (p, q) = (self.ring[k].1, self.ring[(k + 1) % count].1);
+            let is_inside = if turn(p, q) > 0.0 {
+                is_between(p, place, q)
+            } else {
+                // A gap of half a turn or more: what is not in the sector the other way round.
+                !is_between(q, place, p)
+            };
+            is_inside.then_some(k + 1)
+        })
+    }
+
+    /// Whether `x` is a Delaunay neighbour of the centre although `a` and `b` are, on either side of it.
+    fn prefers(&self, x: (u32, Place), a: (u32, Place), b: (u32, Place)) -> bool {
+        let inside = in_circle(a.1, b.1, x.1);
+        if inside == 0.0 {
+            // The diagonal from the lowest index.
+            self.centre.min(x.0) < a.0.min(b.0)
+        } else {
+            inside > 0.0
+        }
+    }
+
+    /// Drops the neighbours after `index` that it has cut off from the centre.
+    fn drop_after(&mut self, index: u32) {
+        while self.ring.len() >= 3 {
+            let count = self.ring.len();
+            let Some(at) = self.position(index) else {
+                return;
+            };
+            let next = (at + 1) % count;
+            let far = (at + 2) % count;
+            if !self.is_cut_off(at, next, far) {
+                return;
+            }
+            self.ring.remove(next);
+        }
+    }
+
+    /// Drops the neighbours before `index` that it has cut off from the centre.
+    fn drop_before(&mut self, index: u32) {
+        while self.ring.len() >= 3 {
+            let count = self.ring.len();
+            let Some(at) = self.position(index) else {
+                return;
+            };
+            let next = (at + count - 1) % count;
+            let far = (at + count - 2) % count;
+            if !self.is_cut_off(far, next, at) {
+                return;
+            }
+            self.ring.remove(next);
+        }
+    }
+
+    /// Whether the ring vertex `middle`, between two others, is no Delaunay neighbour of the centre any more.
+    fn is_cut_off(&self, before: usize, middle: usize, after: usize) -> bool {
+        let [a, x, b] = [before, middle, after].map(|k| self.ring[k]);
+        turn(a.1, x.1) > 0.0
+            && turn(x.1, b.1) > 0.0
+            && turn(a.1, b.1) > 0.0
+            && !self.prefers(x, a, b)
+    }
+
+    fn position(&self, index: u32) -> Option<usize> {
+        self.ring.iter().position(|&(other, _)| other == index)
+    }
+}

@@ -55,10 +55,12 @@ pub use mesh::attributes::{
 };
 pub use mesh::defects::{Defect, MeshDefects};
 pub use mesh::trimesh::TriMesh;
+pub use predict::grey::GreyOptions;
 pub use predict::hpde::options::{
     DeCrossover, DeMutation, HpdeOptions, HpdeProjection, HpdeSolver, HpdeTangents,
 };
 pub use predict::mls::{MlsDomain, MlsOptions, MlsUnit};
+pub use predict::nurbs::NurbsOptions;
 pub use predict::surface::candidates::Candidate;
 pub use quality::deviation;
 pub use reconstruct::{PointCloud, PointOptions, PointReport, mesh_from_points};

@@ -24,6 +24,10 @@ pub enum Method {
     FairC2,
     /// Sections between facing points of the rim, by differential evolution (Xie & Zou 2013).
     Hpde,
+    /// Sections continued from both sides by grey prediction (Wang & Hung 2012).
+    Grey,
+    /// Sections by splines through layers of known points (Kumar et al. 2011).
+    Nurbs,
     /// The rim unfolded to the plane and triangulated there; refined, of least area.
     UnfoldArea,
     /// The rim unfolded to the plane and triangulated there; refined, faired by the second-order umbrella.
@@ -34,7 +38,7 @@ pub enum Method {
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::Auto,
         Self::Curvature,
         Self::Flat,
@@ -42,6 +46,8 @@ impl Method {
         Self::FairC1,
         Self::FairC2,
         Self::Hpde,
+        Self::Grey,
+        Self::Nurbs,
         Self::UnfoldArea,
         Self::UnfoldFairing,
         Self::Mls,
@@ -58,6 +64,8 @@ impl Method {
             Self::FairC1 => "fair-c1",
             Self::FairC2 => "fair-c2",
             Self::Hpde => "hpde",
+            Self::Grey => "grey",
+            Self::Nurbs => "nurbs",
             Self::UnfoldArea => "unfold-area",
             Self::UnfoldFairing => "unfold-fairing",
             Self::Mls => "mls",
@@ -86,6 +94,8 @@ impl Method {
             Self::FairC1 => "refine, then fair with a common tangent plane along the rim",
             Self::FairC2 => "refine, then fair with common curvature along the rim",
             Self::Hpde => "sections between facing points of the rim, by differential evolution",
+            Self::Grey => "sections continued from both sides by grey prediction",
+            Self::Nurbs => "sections by splines through layers of known points",
             Self::UnfoldArea => {
                 "unfold the rim to the plane, triangulate there; refined, of least area"
             }

@@ -1,7 +1,9 @@
 //! Predicts the surface that was there before the hole.
 
 pub(crate) mod creases;
+pub(crate) mod grey;
 pub(crate) mod hpde;
 mod jet;
 pub(crate) mod mls;
+pub(crate) mod nurbs;
 pub(crate) mod surface;

@@ -2,8 +2,10 @@
 
 mod auto;
 mod creases;
+mod grey;
 mod hpde;
 mod mls;
+mod nurbs;
 mod staircase;
 mod unfold;
 
@@ -49,6 +51,8 @@ impl<'a> PatchMaker<'a> {
         match method {
             Method::Auto | Method::Curvature => HoleReach::rings(auto::RINGS),
             Method::Hpde => HoleReach::rings(hpde::RING_COUNT),
+            Method::Grey => HoleReach::rings(grey::RING_COUNT),
+            Method::Nurbs => HoleReach::rings(nurbs::RING_COUNT),
             Method::FairC2 => HoleReach::rings(2),
             Method::Mls => HoleReach {
                 rings: 1,
@@ -66,6 +70,8 @@ impl<'a> PatchMaker<'a> {
         match method {
             Method::Auto | Method::Curvature => self.auto.patch(method, &mut self.staircase),
             Method::Hpde => hpde::patch(self.hole, self.options, self.interrupted),
+            Method::Grey => grey::patch(self.hole, self.options, self.interrupted),
+            Method::Nurbs => nurbs::patch(self.hole, self.options, self.interrupted),
             Method::UnfoldArea | Method::UnfoldFairing => self.unfold.patch(method),
             Method::FairC2 if self.auto.is_noisy() => Err(Error::new(
                 ErrorKind::Geometry,

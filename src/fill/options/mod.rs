@@ -2,8 +2,10 @@
 
 mod attributes;
 mod auto;
+mod grey;
 mod hpde;
 mod mls;
+mod nurbs;
 mod parameter;
 mod staircase;
 mod unfold;
@@ -14,8 +16,10 @@ pub use parameter::Parameter;
 
 use super::method::Method;
 use crate::error::{Error, ErrorKind, Result};
+use crate::predict::grey::GreyOptions;
 use crate::predict::hpde::options::HpdeOptions;
 use crate::predict::mls::MlsOptions;
+use crate::predict::nurbs::NurbsOptions;
 use crate::triangulate::unfold::UnfoldOptions;
 use parameter::{number, switch, switch_name};
 
@@ -53,6 +57,10 @@ pub struct FillOptions {
     pub auto: AutoOptions,
     /// Options of [`Method::Hpde`].
     pub hpde: HpdeOptions,
+    /// Options of [`Method::Grey`], which uses those of [`Method::Hpde`] besides.
+    pub grey: GreyOptions,
+    /// Options of [`Method::Nurbs`], which uses those of [`Method::Hpde`] besides.
+    pub nurbs: NurbsOptions,
     /// Seconds that a fill may take; holes that are not finished then fail with [`ErrorKind::Limit`] and are as
     /// they were. `None` (the default) sets no limit. Which holes are finished in time depends on the
     /// machine; a patch that is finished is the same as without a limit.
@@ -79,6 +87,8 @@ impl Default for FillOptions {
             max_new_vertices: 10_000_000,
             auto: AutoOptions::default(),
             hpde: HpdeOptions::default(),
+            grey: GreyOptions::default(),
+            nurbs: NurbsOptions::default(),
             time_budget: None,
             attributes: AttributeOptions::default(),
             unfold: UnfoldOptions::default(),
@@ -93,6 +103,8 @@ const GROUPS: &[&[Parameter]] = &[
     auto::PARAMETERS,
     staircase::PARAMETERS,
     hpde::PARAMETERS,
+    grey::PARAMETERS,
+    nurbs::PARAMETERS,
     unfold::PARAMETERS,
     mls::PARAMETERS,
     attributes::PARAMETERS,

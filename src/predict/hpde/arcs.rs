@@ -10,11 +10,11 @@ const FLAT: f64 = 1e-5;
 
 /// A circular arc from the origin to `(length, 0)` whose tangent at both ends makes the angle `angle` with the
 /// x axis, upwards at the start.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Arc {
-    pub(super) length: f64,
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Arc {
+    pub(crate) length: f64,
     /// In radians, between -π and π.
-    pub(super) angle: f64,
+    pub(crate) angle: f64,
 }
 
 impl Arc {

@@ -8,12 +8,14 @@ use crate::math::{Vec3, unit};
 
 /// A point of the rim from which a section starts or at which it ends.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct BasePoint {
+pub(crate) struct BasePoint {
     pub(super) position: Vec3,
     /// Unit normal of the known surface there, or zero.
     pub(super) normal: Vec3,
     /// Distance along the rim from its first vertex.
     pub(super) arc: f64,
+    /// The edge of the rim that it lies on, by its first vertex.
+    pub(super) edge: usize,
 }
 
 /// `n = ⌊BudLen / (spacing · EdgeLen)⌋` base points, one less if that is odd, so that each can have a partner.
@@ -44,6 +46,7 @@ pub(super) fn base_points(rim: &Rim, spacing: f64) -> Vec<BasePoint> {
                 position: rim.points[a].lerp(&rim.points[b], share),
                 normal,
                 arc,
+                edge,
             }
         })
         .collect()

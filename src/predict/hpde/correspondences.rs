@@ -7,10 +7,10 @@ use super::base_points::{BasePoint, rim_direction};
 use crate::math::{Vec3, unit};
 
 /// A pair of base points that face each other, as indices of the rotated sequence: `first < second`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Pair {
-    pub(super) first: usize,
-    pub(super) second: usize,
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Pair {
+    pub(crate) first: usize,
+    pub(crate) second: usize,
 }
 
 /// The start of the sequence for which the distances between the points `i` and `n - 1 - i` have the smallest sum,
@@ -78,6 +78,7 @@ mod tests {
                     position: Vec3::new(a * angle.cos(), b * angle.sin(), 0.0),
                     normal: Vec3::z(),
                     arc: k as f64,
+                    edge: k,
                 }
             })
             .collect()

@@ -16,10 +16,16 @@ mod inside;
 mod layout;
 mod optimize;
 pub(crate) mod options;
+mod outside;
 mod rim;
 mod sections;
 mod segmentation;
 mod smoothing;
+
+pub(crate) use base_points::BasePoint;
+pub(crate) use options::HpdeOptions;
+pub(crate) use outside::Outside;
+pub(crate) use sections::{Predicted, Prepared};
 
 use super::jet::rim_normals;
 use crate::error::{Error, ErrorKind, Result};
@@ -31,9 +37,9 @@ use correspondences::{best_start, pairs, start_of_cut};
 use inside::Inside;
 use layout::{Layout, Scene};
 use optimize::Editor;
-use options::{HpdeOptions, HpdeProjection, HpdeTangents};
+use options::{HpdeProjection, HpdeTangents};
 use rim::{Rim, check_simple, edge_normals, mean_edge_length};
-use sections::{Context, Section, predict_sections};
+use sections::{Section, assemble, evolved, prepare};
 use smoothing::{Neighbours, smooth};
 use std::borrow::Cow;
 
@@ -52,8 +58,8 @@ const MOST_ROUNDS: usize = 12;
 /// The patch for `hole`, with at most `most_points` new vertices.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Topology`] and [`crate::ErrorKind::Geometry`] for holes out of the method's reach, with the
-/// reason; [`crate::ErrorKind::Limit`]; [`crate::ErrorKind::Cancelled`].
+/// [`ErrorKind::Topology`] and [`ErrorKind::Geometry`] for holes out of the method's reach, with the reason;
+/// [`ErrorKind::Limit`]; [`ErrorKind::Cancelled`].
 ///
 /// # Complexity
 /// `O(n² + p · generations)` for `n` base points and `p` predicted points.
@@ -62,6 +68,25 @@ pub(crate) fn predict(
     options: &HpdeOptions,
     seed: u64,
     most_points: usize,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<PatchSurface> {
+    let curves =
+        |_: &[BasePoint], sections: &[Prepared]| evolved(sections, options, seed, interrupted);
+    patch_along(hole, options, most_points, &curves, interrupted)
+}
+
+/// What predicts the points of all sections.
+pub(crate) type Curves<'a> = dyn Fn(&[BasePoint], &[Prepared]) -> Result<Predicted> + 'a;
+
+/// The patch whose points lie on `curves`: all steps of HPDE but the prediction itself.
+///
+/// # Errors
+/// Those of [`predict`], and of `curves`.
+pub(crate) fn patch_along(
+    hole: &HoleShape,
+    options: &HpdeOptions,
+    most_points: usize,
+    curves: &Curves<'_>,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<PatchSurface> {
     check_simple(hole)?;
@@ -89,15 +114,9 @@ pub(crate) fn predict(
         let (first, second) = (base[p.first].arc, base[p.second].arc);
         rim.has_vertex_between(first, second) && rim.has_vertex_between(second, first)
     });
-    let context = Context { seed, interrupted };
-    let sections = predict_sections(
-        &base,
-        &pairs,
-        rim.edge_length,
-        most_points,
-        options,
-        &context,
-    )?;
+    let prepared = prepare(&base, &pairs, rim.edge_length, most_points, options)?;
+    let predicted = curves(&base, &prepared)?;
+    let sections = assemble(&prepared, predicted, rim.edge_length)?;
     let scene = Scene {
         rim: &rim,
         base: &base,

@@ -29,16 +29,37 @@ const CLEARANCE: f64 = 0.1;
 /// Part of the predicted points that may be left out because their sections cross.
 const MOST_CROSSING: f64 = 0.5;
 
-/// The plane of a section: the origin is the first base point, `x` points to the second one.
-#[derive(Clone, Copy, Debug)]
-struct Frame {
-    origin: Vec3,
-    x: Vec3,
-    y: Vec3,
-    /// The plane's normal, which points on to the next sections.
-    ahead: Vec3,
-    length: f64,
+/// A section before its points are predicted. Its plane has the first base point as origin, `x` points to the second
+/// one and `y` is across the line between them; `ahead`, its normal, points on to the next sections.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Prepared {
+    pub(crate) pair: Pair,
+    pub(crate) origin: Vec3,
+    pub(crate) x: Vec3,
+    pub(crate) y: Vec3,
+    pub(crate) ahead: Vec3,
+    /// Distance of the base points.
+    pub(crate) length: f64,
+    /// The arc that is tangent to the surface at the first base point, and the one at the second.
+    pub(crate) arcs: [Arc; 2],
+    /// Points to predict.
+    pub(crate) count: usize,
 }
+
+impl Prepared {
+    /// The mean length of its arcs.
+    fn arc_length(&self) -> f64 {
+        (self.arcs[0].arc_length() + self.arcs[1].arc_length()) / 2.0
+    }
+
+    /// The distance between its points.
+    pub(crate) fn step(&self) -> f64 {
+        self.arc_length() / (self.count + 1) as f64
+    }
+}
+
+/// Points between the base points of each section, in order.
+pub(crate) type Predicted = Vec<Vec<Vec3>>;
 
 /// The points predicted between two base points, in order.
 #[derive(Clone, Debug)]
@@ -49,35 +70,34 @@ pub(super) struct Section {
     ahead: Vec3,
 }
 
-/// Predicts the points between all pairs.
+/// Finds the section of each pair that has one, with its arcs and its number of points.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] when the arcs of most sections are out of reach or most sections cross;
-/// [`ErrorKind::Limit`] for more than `most_points`; [`ErrorKind::Cancelled`].
-pub(super) fn predict_sections(
+/// [`ErrorKind::Geometry`] when the arcs of most sections are out of reach; [`ErrorKind::Limit`] for more than
+/// `most_points`.
+pub(super) fn prepare(
     base: &[BasePoint],
     pairs: &[Pair],
     edge_length: f64,
     most_points: usize,
     options: &HpdeOptions,
-    context: &Context<'_>,
-) -> Result<Vec<Section>> {
-    let mut ready = Vec::with_capacity(pairs.len());
+) -> Result<Vec<Prepared>> {
+    let mut sections = Vec::with_capacity(pairs.len());
     let mut out_of_reach = 0;
     for &pair in pairs {
-        let Some(frame) = frame(base, pair) else {
+        let Some(mut section) = frame(base, pair) else {
             continue;
         };
-        let angles = angles(base, pair, &frame);
+        let angles = angles(base, pair, &section);
         if angles.iter().any(|a| a.is_none_or(|a| a.abs() > STEEPEST)) {
             out_of_reach += 1;
             continue;
         }
-        let arcs = angles.map(|angle| Arc {
-            length: frame.length,
+        section.arcs = angles.map(|angle| Arc {
+            length: section.length,
             angle: angle.unwrap_or(0.0),
         });
-        ready.push((pair, frame, arcs));
+        sections.push(section);
     }
     if out_of_reach > pairs.len() / 2 {
         let message = format!(
@@ -86,56 +106,75 @@ pub(super) fn predict_sections(
         );
         return Err(Error::new(ErrorKind::Geometry, message));
     }
-    let length = |arcs: &[Arc; 2]| (arcs[0].arc_length() + arcs[1].arc_length()) / 2.0;
-    let longest = ready.iter().fold(0.0, |l: f64, r| l.max(length(&r.2)));
+    let longest = sections.iter().fold(0.0, |l: f64, s| l.max(s.arc_length()));
     // Equation 15.
     let most = (longest / (options.point_spacing * edge_length)).floor() + 1.0;
-    let counts: Vec<usize> = ready
-        .iter()
-        .map(|r| (length(&r.2) / longest * most).floor() as usize + 1)
-        .collect();
-    if counts
-        .iter()
-        .fold(0, |sum: usize, &c| sum.saturating_add(c))
-        > most_points
-    {
+    let mut sum = 0_usize;
+    for section in &mut sections {
+        section.count = (section.arc_length() / longest * most).floor() as usize + 1;
+        sum = sum.saturating_add(section.count);
+    }
+    if sum > most_points {
         let message = format!("the patch would need more than {most_points} new vertices");
         return Err(Error::new(ErrorKind::Limit, message));
     }
-    let mut sections = Vec::with_capacity(ready.len());
-    for ((k, (pair, frame, arcs)), &count) in (0_u64..).zip(&ready).zip(&counts) {
-        let profile = profile(&arcs[0], &arcs[1], count);
+    Ok(sections)
+}
+
+/// The points of HPDE: between the arcs, at heights by differential evolution or by its start value alone.
+///
+/// # Errors
+/// [`ErrorKind::Cancelled`].
+pub(super) fn evolved(
+    sections: &[Prepared],
+    options: &HpdeOptions,
+    seed: u64,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<Predicted> {
+    let mut predicted = Vec::with_capacity(sections.len());
+    for (k, section) in (0_u64..).zip(sections) {
+        proceed_unless(interrupted)?;
+        let profile = profile(&section.arcs[0], &section.arcs[1], section.count);
         let heights = match options.solver {
             HpdeSolver::Direct => profile.start.clone(),
-            HpdeSolver::De => {
-                let mut random = seeded(context.seed, k);
-                evolve(&profile, options, &mut random, context.interrupted)?.values
-            }
+            HpdeSolver::De => evolve(&profile, options, &mut seeded(seed, k), interrupted)?.values,
         };
-        proceed_unless(context.interrupted)?;
         let points = profile.x.iter().zip(&heights);
-        sections.push(Section {
-            pair: *pair,
-            points: points
-                .map(|(x, y)| frame.origin + frame.x * *x + frame.y * *y)
+        predicted.push(
+            points
+                .map(|(x, y)| section.origin + section.x * *x + section.y * *y)
                 .collect(),
-            origin: frame.origin,
-            ahead: frame.ahead,
-        });
+        );
     }
+    Ok(predicted)
+}
+
+/// The sections with their points, but for those that are not between their neighbours.
+///
+/// # Errors
+/// [`ErrorKind::Geometry`] when most sections cross.
+pub(super) fn assemble(
+    prepared: &[Prepared],
+    predicted: Predicted,
+    edge_length: f64,
+) -> Result<Vec<Section>> {
+    let mut sections: Vec<Section> = prepared
+        .iter()
+        .zip(predicted)
+        .map(|(section, points)| Section {
+            pair: section.pair,
+            points,
+            origin: section.origin,
+            ahead: section.ahead,
+        })
+        .collect();
     leave_out_crossing(&mut sections, edge_length)?;
     Ok(sections)
 }
 
-/// What the prediction needs besides geometry.
-pub(super) struct Context<'a> {
-    pub(super) seed: u64,
-    pub(super) interrupted: &'a dyn Fn() -> bool,
-}
-
 /// Equation 11. `None` where the neighbouring pairs do not say where the section goes, or where its plane lies along
 /// the surface: where the rim ends in a plane across the surface, all lines between its points are in that plane.
-fn frame(base: &[BasePoint], pair: Pair) -> Option<Frame> {
+fn frame(base: &[BasePoint], pair: Pair) -> Option<Prepared> {
     let n = base.len();
     let at = |k: usize| base[k % n].position;
     let (first, second) = (at(pair.first), at(pair.second));
@@ -148,17 +187,19 @@ fn frame(base: &[BasePoint], pair: Pair) -> Option<Frame> {
     if ahead == Vec3::zeros() || normal.dot(&ahead).abs() > LEANING {
         return None;
     }
-    Some(Frame {
+    Some(Prepared {
+        pair,
         origin: first,
         x: -unit(line),
         y: across,
         ahead,
         length: line.norm(),
+        ..Prepared::default()
     })
 }
 
 /// The angles at which the surface leaves the section's line at its two ends, both measured upwards and inwards.
-fn angles(base: &[BasePoint], pair: Pair, frame: &Frame) -> [Option<f64>; 2] {
+fn angles(base: &[BasePoint], pair: Pair, frame: &Prepared) -> [Option<f64>; 2] {
     [(pair.first, 1.0), (pair.second, -1.0)].map(|(k, inwards)| {
         let BasePoint { normal, .. } = base[k];
         let rim = rim_direction(base, k);

@@ -169,6 +169,7 @@ mod tests {
                     position: Vec3::new(u * turn.cos(), v, -u * turn.sin()),
                     normal: Vec3::new(turn.sin(), 0.0, turn.cos()),
                     arc: 0.0,
+                    edge: 0,
                 });
             }
         }

@@ -1,0 +1,254 @@
+//! GREY: the sections of a hole are continued from both ends by a grey model of the angles at which they turn.
+//!
+//! Based on: L.-C. Wang, Y.-C. Hung, "Hole filling of triangular mesh segments using systematic grey prediction",
+//! Computer-Aided Design 44(12), 2012, as W.-C. Xie and X.-F. Zou describe it (Computer-Aided Design 45, 2013,
+//! sections 2 and 5.2.3): a new point is found by predicting the included angle from the points next to it on one side
+//! of the rim, in the plane of the normal. The model is GM(1,1) of J.-L. Deng, "Control problems of grey systems",
+//! Systems & Control Letters 1(5), 1982. `docs/methods/grey.md` says how what the descriptions leave open is decided.
+//!
+//! `O(1)` per predicted point. Not guaranteed: that the two sides meet; what they miss each other by is spread over
+//! the section.
+
+use super::hpde::{BasePoint, HpdeOptions, Outside, Predicted, Prepared};
+use crate::error::{Result, proceed_unless};
+use crate::math::Vec3;
+use crate::patch::{HoleShape, PatchSurface};
+use std::f64::consts::PI;
+
+/// Rings of known triangles that are read: those that six steps outwards pass.
+pub(crate) const RING_COUNT: u32 = 7;
+
+/// Known angles that a series needs: with fewer, the two coefficients of the model are not determined.
+const SHORTEST_SERIES: usize = 4;
+
+/// A predicted angle is at most this many times the largest known one: the model is an exponential.
+const MOST_GROWTH: f64 = 2.0;
+
+/// Options of [`Method::Grey`](crate::Method::Grey); `docs/methods/grey.md` explains them.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct GreyOptions {
+    /// Known angles on each side that the model is fitted to; default 5.
+    pub series: usize,
+}
+
+impl Default for GreyOptions {
+    fn default() -> Self {
+        Self { series: 5 }
+    }
+}
+
+/// The patch for `hole`, with at most `most_points` new vertices. Sections, triangulation and optimization are those
+/// of HPDE, with its options.
+///
+/// # Errors
+/// As [`super::hpde::predict`].
+pub(crate) fn predict(
+    hole: &HoleShape,
+    options: &GreyOptions,
+    hpde: &HpdeOptions,
+    most_points: usize,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<PatchSurface> {
+    let outside = Outside::new(hole);
+    let curves = |base: &[BasePoint], sections: &[Prepared]| -> Result<Predicted> {
+        let mut all = Vec::with_capacity(sections.len());
+        for section in sections {
+            proceed_unless(interrupted)?;
+            let ends = [&base[section.pair.first], &base[section.pair.second]];
+            let step = section.step();
+            let from = ends.map(|end| outside.walk(end, section, step, options.series + 1));
+            all.push(continued(section, &from));
+        }
+        Ok(all)
+    };
+    super::hpde::patch_along(hole, hpde, most_points, &curves, interrupted)
+}
+
+/// The points of a section: the first half continues the known points before the first end, the second half those
+/// before the second one.
+fn continued(section: &Prepared, known: &[Vec<Vec3>; 2]) -> Vec<Vec3> {
+    let m = section.count;
+    let in_plane = |p: &Vec3| {
+        let d = p - section.origin;
+        [d.dot(&section.x), d.dot(&section.y)]
+    };
+    let [near, far] = [0, 1].map(|side| {
+        let outer: Vec<[f64; 2]> = known[side].iter().rev().map(in_plane).collect();
+        let end = [section.length * f64::from(side as u8), 0.0];
+        let angle = section.arcs[side].angle;
+        // The direction inwards along the tangent, if too little is known.
+        let tangent = if side == 0 { angle } else { PI - angle };
+        continue_line(&outer, end, tangent, section.step(), m + 1)
+    });
+    // Both lines have m points and the other end; the gap is what each misses that end by.
+    let miss = |line: &[[f64; 2]], end: [f64; 2]| {
+        line.last()
+            .map_or([0.0; 2], |p| [end[0] - p[0], end[1] - p[1]])
+    };
+    let gaps = [miss(&near, [section.length, 0.0]), miss(&far, [0.0, 0.0])];
+    (1..=m)
+        .map(|k| {
+            let is_near = 2 * k <= m + 1;
+            let (line, gap, since) = if is_near {
+                (&near, gaps[0], k)
+            } else {
+                (&far, gaps[1], m + 1 - k)
+            };
+            let share = since as f64 / (m + 1) as f64;
+            let p = line[since - 1];
+            let (x, y) = (p[0] + gap[0] * share, p[1] + gap[1] * share);
+            section.origin + section.x * x + section.y * y
+        })
+        .collect()
+}
+
+/// Continues the line through `outer`, which ends next to `end`, from `end` on by `count` steps.
+fn continue_line(
+    outer: &[[f64; 2]],
+    end: [f64; 2],
+    tangent: f64,
+    step: f64,
+    count: usize,
+) -> Vec<[f64; 2]> {
+    let points: Vec<[f64; 2]> = outer.iter().copied().chain([end]).collect();
+    let directions: Vec<f64> = points
+        .windows(2)
+        .map(|w| (w[1][1] - w[0][1]).atan2(w[1][0] - w[0][0]))
+        .collect();
+    let turns: Vec<f64> = directions
+        .windows(2)
+        .map(|w| wrapped(w[1] - w[0]))
+        .collect();
+    let model = GreyModel::fit(&turns);
+    let mut direction = directions.last().copied().unwrap_or(tangent);
+    let mut at = end;
+    (0..count)
+        .map(|k| {
+            direction += model.predict(k);
+            at = [
+                at[0] + step * direction.cos(),
+                at[1] + step * direction.sin(),
+            ];
+            at
+        })
+        .collect()
+}
+
+/// The same angle between -π and π.
+fn wrapped(angle: f64) -> f64 {
+    angle - (2.0 * PI) * (angle / (2.0 * PI)).round()
+}
+
+/// GM(1,1): the running sums of a positive series satisfy `x' + a x = b`.
+struct GreyModel {
+    first: f64,
+    a: f64,
+    b: f64,
+    /// What was added to make the series positive.
+    shift: f64,
+    known: usize,
+    largest: f64,
+}
+
+impl GreyModel {
+    /// Fits `a` and `b` by least squares to `x0(k) + a z(k) = b`, `z(k)` being the mean of consecutive sums. A series
+    /// that is too short is continued by its mean.
+    fn fit(series: &[f64]) -> Self {
+        let largest = series.iter().fold(0.0, |l: f64, x| l.max(x.abs()));
+        let mean = series.iter().sum::<f64>() / series.len().max(1) as f64;
+        let constant = Self {
+            first: 0.0,
+            a: 0.0,
+            b: mean,
+            shift: 0.0,
+            known: series.len(),
+            largest,
+        };
+        if series.len() < SHORTEST_SERIES || largest == 0.0 {
+            return constant;
+        }
+        // Twice the largest one keeps the sums far from zero.
+        let shift = 2.0 * largest;
+        let positive: Vec<f64> = series.iter().map(|x| x + shift).collect();
+        let mut sum = positive[0];
+        let (mut n, mut sz, mut szz, mut sx, mut szx) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for x in &positive[1..] {
+            let z = sum + x / 2.0;
+            sum += x;
+            n += 1.0;
+            sz += z;
+            szz += z * z;
+            sx += x;
+            szx += z * x;
+        }
+        let determinant = n * szz - sz * sz;
+        if determinant <= 0.0 {
+            return constant;
+        }
+        Self {
+            first: positive[0],
+            a: (sz * sx - n * szx) / determinant,
+            b: (szz * sx - sz * szx) / determinant,
+            shift,
+            ..constant
+        }
+    }
+
+    /// The value `ahead` places after the first unknown one.
+    fn predict(&self, ahead: usize) -> f64 {
+        // Below this the exponential is a line to double precision.
+        let value = if self.a.abs() < 1e-9 {
+            self.b
+        } else {
+            let k = (self.known + ahead) as f64;
+            (self.first - self.b / self.a) * (1.0 - self.a.exp()) * (-self.a * k).exp()
+        };
+        let limit = MOST_GROWTH * self.largest;
+        (value - self.shift).clamp(-limit, limit)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_model_continues_constants_and_slow_exponentials() {
+        let constant = GreyModel::fit(&[0.3; 5]);
+        assert!((constant.predict(0) - 0.3).abs() < 1e-9);
+        assert!((constant.predict(7) - 0.3).abs() < 1e-9);
+        let series: Vec<f64> = (0..6).map(|k| 0.2 * (0.05 * f64::from(k)).exp()).collect();
+        let growing = GreyModel::fit(&series);
+        for k in 0..3 {
+            let expected = 0.2 * (0.05 * f64::from(6 + k)).exp();
+            let found = growing.predict(k as usize);
+            assert!(
+                (found - expected).abs() < 0.02 * expected,
+                "{found} {expected}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_short_or_wild_series_stays_bounded() {
+        assert_eq!(GreyModel::fit(&[]).predict(3), 0.0);
+        assert!((GreyModel::fit(&[0.1, 0.3]).predict(9) - 0.2).abs() < 1e-12);
+        let wild = GreyModel::fit(&[0.0, 0.1, -0.2, 1.0, 3.0]);
+        assert!((0..50).all(|k| wild.predict(k).abs() <= 6.0));
+    }
+
+    #[test]
+    fn a_circle_is_continued_as_a_circle() {
+        let at = |k: i32| {
+            let angle = 0.1 * f64::from(k);
+            [angle.sin(), angle.cos()]
+        };
+        let outer: Vec<[f64; 2]> = (-6..0).map(at).collect();
+        let step = 2.0 * 0.05_f64.sin();
+        let line = continue_line(&outer, at(0), 0.0, step, 20);
+        for (k, p) in (1..).zip(&line) {
+            assert!((p[0] - at(k)[0]).hypot(p[1] - at(k)[1]) < 1e-9);
+        }
+    }
+}

@@ -95,7 +95,7 @@ impl TriMesh {
     /// Adds a column to the attributes of the vertices.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] as [`Attributes::push`]; nothing changes then.
+    /// [`InvalidInput`](crate::ErrorKind::InvalidInput) as [`Attributes::push`]; nothing changes then.
     pub fn add_vertex_attribute(&mut self, name: &str, values: AttributeValues) -> Result<()> {
         self.vertex_attributes.push(name, values)
     }
@@ -103,7 +103,7 @@ impl TriMesh {
     /// Adds a column to the attributes of the triangles.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] as [`Attributes::push`]; nothing changes then.
+    /// [`InvalidInput`](crate::ErrorKind::InvalidInput) as [`Attributes::push`]; nothing changes then.
     pub fn add_face_attribute(&mut self, name: &str, values: AttributeValues) -> Result<()> {
         self.face_attributes.push(name, values)
     }

@@ -17,6 +17,7 @@ pub(crate) mod torus;
 use super::frame::{Fit, Frame, rms_distance};
 use super::{Implicit, Sample};
 use crate::math::Vec3;
+use axis::{Axis, Revolved};
 use levenberg_marquardt::{Progress, improve};
 use nalgebra::SVector;
 
@@ -45,6 +46,32 @@ pub(crate) trait Primitive<const D: usize>: Shape {
 
     /// The surface after a small step in its degrees of freedom.
     fn moved(&self, step: &SVector<f64, D>) -> Self;
+
+    /// The axis of revolution.
+    fn axis(&self) -> &Axis;
+
+    /// Distance and normal at `p`, and how fast they change with the degrees of freedom; `across` are the two
+    /// directions across the axis.
+    fn linearize(&self, across: &[Vec3; 2], p: &Vec3) -> Linear<D>;
+}
+
+/// Distance and normal of a primitive at a point, to first order in its degrees of freedom.
+pub(crate) struct Linear<const D: usize> {
+    distance: f64,
+    normal: Vec3,
+    distance_slopes: SVector<f64, D>,
+    normal_slopes: [Vec3; D],
+}
+
+impl<const D: usize> Linear<D> {
+    fn new(here: &Revolved, slopes: [(f64, Vec3); D]) -> Self {
+        Self {
+            distance: here.distance,
+            normal: here.normal,
+            distance_slopes: SVector::from_fn(|k, _| slopes[k].0),
+            normal_slopes: slopes.map(|s| s.1),
+        }
+    }
 }
 
 /// A primitive in the coordinates of the samples that it was fitted to.

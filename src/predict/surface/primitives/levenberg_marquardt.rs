@@ -108,9 +108,10 @@ fn normal_equations<const D: usize, P: Primitive<D>>(
         let turned = NORMAL_WEIGHT * (here.normal - sample.normal);
         let residuals = [here.distance, turned.x, turned.y, turned.z];
         for (row, residual) in rows.iter().zip(residuals) {
-            hessian.ger(1.0, row, row, 1.0);
+            hessian.syger(1.0, row, row, 1.0);
             slope.axpy(residual, row, 1.0);
         }
     }
+    hessian.fill_upper_triangle_with_lower_triangle();
     (hessian, slope)
 }

@@ -21,7 +21,9 @@ use axis::{Axis, Revolved};
 use levenberg_marquardt::{Progress, improve};
 use nalgebra::SVector;
 
-/// Steps spent on each start before the better ones are chosen.
+/// Starts that are followed at all, those that fit best as they are, and steps spent on each before the better ones
+/// are chosen.
+const TRIALS: usize = 4;
 const TRIAL_STEPS: usize = 6;
 
 /// Steps spent on the chosen ones; a good start needs five to ten.
@@ -92,16 +94,17 @@ fn fit<const D: usize, P: Primitive<D>>(samples: &[Sample]) -> Option<Fit<Fitted
     }
     let frame = Frame::around(samples)?;
     let scaled = frame.enter_all(samples);
-    let mut trials: Vec<(f64, P)> = P::starts(&scaled)
-        .into_iter()
-        .filter_map(|start| improve(start, &scaled, TRIAL_STEPS))
-        .map(|Progress { cost, primitive }| (cost, primitive))
-        .collect();
-    trials.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let finalists = trials.into_iter().take(FINALISTS);
-    let best = finalists
-        .filter_map(|(_, trial)| improve(trial, &scaled, STEPS))
-        .min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+    let follow = |starts: Vec<P>, count: usize, steps: usize| {
+        let follow = |start| improve(start, &scaled, steps);
+        let mut reached: Vec<Progress<P>> = starts.into_iter().filter_map(follow).collect();
+        reached.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        reached.truncate(count);
+        reached
+    };
+    let primitives = |reached: Vec<Progress<P>>| reached.into_iter().map(|r| r.primitive).collect();
+    let starts = primitives(follow(P::starts(&scaled), TRIALS, 0));
+    let finalists = primitives(follow(starts, FINALISTS, TRIAL_STEPS));
+    let best = follow(finalists, 1, STEPS).pop()?;
     let surface = Fitted {
         primitive: best.primitive,
         frame,

@@ -149,7 +149,7 @@ impl<'a> Auto<'a> {
         let first = marcher.patch(faired.clone(), sizes, &faired, staircase);
         match first {
             Err(error) if error.kind() == ErrorKind::Geometry && !is_noisy => {
-                match self.from_other_starts(&marcher, &faired, staircase) {
+                match self.march_again(&marcher, &faired, staircase) {
                     Err(other) if other.kind() == ErrorKind::Geometry => Err(error),
                     done => done,
                 }
@@ -161,7 +161,7 @@ impl<'a> Auto<'a> {
     /// The patch on the predicted surface where the march from the faired patch failed: from one with common
     /// curvature, which rises higher over a cap that is more than half a sphere, or from one that is swept across
     /// the hole, which follows a rim that winds round a tube where a faired patch cuts through it.
-    fn from_other_starts(
+    fn march_again(
         &self,
         marcher: &Marcher<'_>,
         faired: &PatchSurface,

@@ -102,7 +102,7 @@ pub fn fill_holes(
 ///
 /// # Errors
 /// [`ErrorKind::Limit`] when they cannot be started.
-pub(super) fn thread_pool(options: &FillOptions) -> Result<rayon::ThreadPool> {
+pub(crate) fn thread_pool(options: &FillOptions) -> Result<rayon::ThreadPool> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads)
         .build()

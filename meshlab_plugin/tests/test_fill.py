@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 import pymeshlab as ml
 
-from common import (FILL, HAS_POINT_ATTRIBUTES, boundary_edges, case, fill_by_library, mesh_set, methods, pure, select_faces, tetrahedron,
+from common import (FILL, HAS_POINT_ATTRIBUTES, boundary_edges, case, fill_by_library, load, mesh_set, methods, pure, select_faces, tetrahedron,
                     torus)
 
 
@@ -97,8 +97,7 @@ class Generated(Filled):
 
 class Cases(Filled):
     def fill(self, name, **choice):
-        ms = ml.MeshSet()
-        ms.load_new_mesh(case(name))
+        ms = load(case(name))
         return ms, self.assert_as_library(ms, **choice)
 
     def test_bunny_natural(self):
@@ -107,8 +106,7 @@ class Cases(Filled):
         self.assertEqual(boundary_edges(ms.current_mesh().face_matrix()), 0)
 
     def test_colored_bunny(self):
-        ms = ml.MeshSet()
-        ms.load_new_mesh(case("colored_bunny"))
+        ms = load(case("colored_bunny"))
         before = ms.current_mesh().vertex_color_matrix()
         result = self.assert_as_library(ms)
         self.assertEqual((result["closed_holes"], result["failed_holes"]), (2, 0))

@@ -120,6 +120,7 @@ fn links_lead_to_files() {
         "CONTRIBUTING.md",
         "CHANGELOG.md",
         "compare/README.md",
+        "meshlab_plugin/README.md",
     ] {
         pages.push(root().join(page));
     }

@@ -60,6 +60,18 @@ impl HoleShape {
         }
     }
 
+    /// The mean of the rim vertices, and twice the largest distance of one from it: the diameter of a round rim. Both turn
+    /// with the hole, as the box of its points does not.
+    pub(crate) fn middle_and_diameter(&self) -> (Vec3, f64) {
+        let middle = self.points.iter().sum::<Vec3>() / self.points.len().max(1) as f64;
+        let farthest = self
+            .points
+            .iter()
+            .map(|p| (p - middle).norm())
+            .fold(0.0, f64::max);
+        (middle, 2.0 * farthest)
+    }
+
     /// The spacing at which the surface next to the rim is sampled: `sqrt(A / (3 n))` with `A` the area of the
     /// triangles that touch one of the `n` rim vertices. About 0.54 of an edge where these are equilateral.
     ///

@@ -12,7 +12,6 @@ use crate::fair::kharmonic::extend_from_rim;
 use crate::fill::method::Method;
 use crate::fill::options::FillOptions;
 use crate::fill::report::Prediction;
-use crate::math::aabb::Aabb;
 use crate::math::sparse::SpdSolver;
 use crate::math::{Vec3, cross_normal, unit};
 use crate::patch::{HoleShape, PatchSurface};
@@ -31,7 +30,7 @@ const MOST_ROUNDS: usize = 5;
 /// Newton steps of each round and of the last projection.
 const STEPS: usize = 10;
 const LAST_STEPS: usize = 6;
-/// Longest Newton step, in extents of the rim.
+/// Longest Newton step, in diameters of the rim.
 const LONGEST_STEP: f64 = 0.05;
 /// A round in which no vertex moves further than this, in rim edge lengths, and the number of triangles changes by
 /// less than the second number, as a share, is the last.
@@ -55,7 +54,7 @@ const FOLDED_SHARE: f64 = 0.03;
 const FOLDED_COUNT: f64 = 2.5;
 /// Area over that of the faired patch, at most, and for tips.
 const AREA_GROWTH: [f64; 2] = [8.0, 40.0];
-/// Distance from the middle of the rim in extents of the rim, at most, and for tips.
+/// Distance from the middle of the rim in diameters of the rim, at most, and for tips.
 const REACH: [f64; 2] = [3.0, 6.0];
 /// Share of rim edges at which the normals of patch and mesh make a cosine below `BENT`, at most, if the faired patch
 /// has no more.
@@ -289,9 +288,8 @@ impl Marcher<'_> {
             staircase.refine_again(&mut patch, &mut sizes)?;
             sizes.iter_mut().for_each(|s| *s /= finer);
         }
-        let rim = Aabb::around(&self.hole.points);
-        let extent = (rim.hi - rim.lo).max();
-        let limit = LONGEST_STEP * extent;
+        let (_, diameter) = self.hole.middle_and_diameter();
+        let limit = LONGEST_STEP * diameter;
         for _ in 0..MOST_ROUNDS {
             let mut longest: f64 = 0.0;
             for p in &mut patch.points[rim_count..] {
@@ -315,7 +313,7 @@ impl Marcher<'_> {
         }
         self.unfold(&mut patch, limit);
         self.blend(&mut patch, limit)?;
-        self.check(&patch, faired, extent)?;
+        self.check(&patch, faired)?;
         Ok(patch)
     }
 
@@ -373,10 +371,10 @@ impl Marcher<'_> {
     }
 
     /// The gates.
-    fn check(&self, patch: &PatchSurface, faired: &PatchSurface, extent: f64) -> Result<()> {
-        let center = self.hole.points.iter().sum::<Vec3>() / self.hole.points.len().max(1) as f64;
-        let reach = REACH[usize::from(self.is_tip)] * extent;
-        if patch.points.iter().any(|p| (p - center).amax() > reach) {
+    fn check(&self, patch: &PatchSurface, faired: &PatchSurface) -> Result<()> {
+        let (middle, diameter) = self.hole.middle_and_diameter();
+        let reach = REACH[usize::from(self.is_tip)] * diameter;
+        if patch.points.iter().any(|p| (p - middle).norm() > reach) {
             return Err(geometry("the predicted patch runs away from the hole"));
         }
         if !patch.points.iter().flatten().all(|x| x.is_finite()) {

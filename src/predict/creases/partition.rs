@@ -17,7 +17,6 @@ use super::intersection::{Curve, corner};
 use crate::crease::detect::Regions;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::Vec3;
-use crate::math::aabb::Aabb;
 use crate::patch::HoleShape;
 use crate::predict::surface::Implicit;
 
@@ -27,8 +26,8 @@ const MOST_ENDS: usize = 6;
 /// Orders of moves for which curves are computed.
 const MOST_TRIALS: usize = 6;
 
-/// Corners lie within this many diameters of the rim's box from its middle.
-const FARTHEST_CORNER: f64 = 0.7;
+/// Corners lie within this many diameters of the rim from its middle.
+const FARTHEST_CORNER: f64 = 1.0;
 
 /// Corners closer than this, in lengths of crease segments, are one.
 const SAME_CORNER: f64 = 0.5;
@@ -36,7 +35,7 @@ const SAME_CORNER: f64 = 0.5;
 /// A corner closer than this to a vertex of the rim would make triangles without area; in the same unit.
 const RIM_DISTANCE: f64 = 0.05;
 
-/// Longest Newton step towards a corner, in diameters of the rim's box.
+/// Longest Newton step towards a corner, in diameters of the rim.
 const LONGEST_STEP: f64 = 0.25;
 
 /// A hole cut into faces.
@@ -70,11 +69,11 @@ pub(crate) fn partition(
     if regions.ends.len() > MOST_ENDS {
         return failed("too many creases meet in the hole");
     }
-    let rim = Aabb::around(&hole.points);
+    let (middle, diameter) = hole.middle_and_diameter();
     let search = Search {
         surfaces,
-        middle: (rim.hi + rim.lo) / 2.0,
-        diameter: (rim.hi - rim.lo).norm(),
+        middle,
+        diameter,
     };
     let first = regions.ends.iter().map(|end| Arc {
         region: regions.at_rim[end.position],

@@ -14,6 +14,7 @@
 use crate::math::{Vec3, unit};
 use crate::patch::HoleShape;
 use nalgebra::{SMatrix, SVector, SymmetricEigen};
+use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Rings of neighbours that a fit starts with.
 const RINGS: usize = 2;
@@ -236,9 +237,11 @@ impl Frame {
 
 type Coefficients = SVector<f64, 6>;
 
-/// The terms of a quadric over the plane.
+/// The terms of a quadric over the plane, scaled so that turning the plane keeps the length of the coefficients: what
+/// is left out as singular then does not depend on its axes.
 fn monomials(constant: f64, u: f64, v: f64) -> Coefficients {
-    Coefficients::from([constant, u, v, u * u / 2.0, u * v, v * v / 2.0])
+    let mixed = u * v * FRAC_1_SQRT_2;
+    Coefficients::from([constant, u, v, u * u / 2.0, mixed, v * v / 2.0])
 }
 
 /// The quadric that fits the heights with weights `exp(-2 decay (u² + v²))`; singular values that are too small are

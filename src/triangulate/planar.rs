@@ -163,6 +163,10 @@ mod tests {
     use robust::{Coord, incircle};
     use std::f64::consts::TAU;
 
+    fn triangulate_planar(polygon: &[Point2], interior: &[Point2]) -> Result<Vec<[u32; 3]>> {
+        triangulate_planar_region(&[polygon], interior, &|| false)
+    }
+
     fn star(radii: &[f64]) -> Vec<Point2> {
         let step = TAU / radii.len() as f64;
         radii

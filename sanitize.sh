@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# Runs the tests of the C interface under a sanitizer.
+# Runs the tests of the C interface under a sanitizer: those in Rust, then the programs in C and C++, which are
+# instrumented by their own compiler (with `address`, for undefined behaviour too).
 #
 #     ./sanitize.sh address|thread [TEST-FILTER]
 #
-# The stable toolchain carries the runtimes; the switch that allows them is for tests only. The library is built anew in
-# target/sanitize-NAME, which takes some minutes the first time.
+# The stable toolchain carries the runtimes; the switch that allows them is for tests only. Everything is built anew in
+# target/sanitize-NAME, which takes ten minutes of processor time the first time. The standard library comes without
+# instruments.
 set -euo pipefail
 cd "$(dirname "$0")"
 sanitizer=${1:?address or thread}
@@ -27,4 +29,16 @@ case "$sanitizer" in
         exit 2
         ;;
 esac
-cargo test --locked --lib --no-default-features --target "$target" --target-dir "target/sanitize-$sanitizer" -- "$filter"
+folder="target/sanitize-$sanitizer"
+cargo test --locked --lib --no-default-features --target "$target" --target-dir "$folder" -- "$filter"
+
+if ! command -v cmake >/dev/null; then
+    echo "SKIPPED: the programs in C and C++: cmake is missing"
+    exit
+fi
+# cargo gets its flags from CMake here.
+unset RUSTFLAGS
+cmake -S . -B "$folder/cpp" -DHOLEFILL_SANITIZER="$sanitizer" -DHOLEFILL_CARGO_PROFILE=dev \
+    -DHOLEFILL_CARGO_TARGET_DIR="$PWD/$folder" -DHOLEFILL_BUILD_PROGRAM=OFF -DHOLEFILL_INSTALL=OFF
+cmake --build "$folder/cpp"
+ctest --test-dir "$folder/cpp" --output-on-failure -L 'abi|examples'

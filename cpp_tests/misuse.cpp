@@ -374,6 +374,7 @@ void wrong_structs_and_values() {
         uint64_t unknown[4];
     } later{HOLEFILL_FILL_OPTIONS_INIT, {0, 0, 0, 0}};
     later.known.struct_size = sizeof later;
+    later.known.method = "flat";
     later.unknown[3] = 1;
     CHECK_FAILS(fill(later.known), HOLEFILL_STATUS_INVALID_STRUCT);
     CHECK(f.hash() == before);
@@ -443,6 +444,7 @@ int32_t use_the_mesh(const HolefillProgress*, void* data) {
 void use_from_a_callback() {
     Fixture f;
     HolefillFillOptions options = HOLEFILL_FILL_OPTIONS_INIT;
+    options.method = "flat";
     options.progress = use_the_mesh;
     options.progress_data = &f;
     CHECK_OK(holefill_mesh_fill_selected(f.mesh, nullptr, &options, nullptr, nullptr));

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 /* Squares along each side, and how far apart the holes are. Each hole is a block of HOLE x HOLE squares. */
-enum { SHEET_SIDE = 24, SHEET_PERIOD = 8, SHEET_HOLE = 3 };
+enum { SHEET_SIDE = 16, SHEET_PERIOD = 8, SHEET_HOLE = 3 };
 
 typedef struct Sheet {
     double *positions;

@@ -111,10 +111,10 @@ impl Planner<'_> {
             .iter()
             .map(|&m| PatchMaker::reach(m, self.options))
             .fold(HoleReach::rings(1), HoleReach::union);
-        match Hole::new(self.mesh, outer, islands, reach) {
-            Ok(hole) => self.plan_hole(hole, methods),
-            Err(error) => Err(error.into()),
-        }
+        proceed_unless(self.interrupted)?;
+        let hole = Hole::new(self.mesh, outer, islands, reach)?;
+        proceed_unless(self.interrupted)?;
+        self.plan_hole(hole, methods)
     }
 
     /// As [`plan`](Self::plan), for a hole that was cut out already.

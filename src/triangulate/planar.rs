@@ -14,33 +14,21 @@ use spade::handles::{FixedFaceHandle, FixedVertexHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, Triangulation, mitigate_underflow};
 
 /// Points between two questions whether to stop: about a millisecond.
-const INSERTIONS_PER_CHECK: usize = 1024;
+const INSERTIONS_PER_CHECK: usize = 256;
 
 type Delaunay = ConstrainedDelaunayTriangulation<spade::Point2<f64>>;
 
-/// Triangulates the closed `polygon`, which may turn either way, with the points of `interior` as further
-/// vertices.
+/// Triangulates what lies between an outer polygon, the first, and polygons inside of it, which turn the other way,
+/// with the points of `interior` as further vertices. Polygons are closed; the outer one may turn either way.
 ///
-/// Returns triangles that index the polygon's vertices and then the interior points, each turning like the
-/// polygon; every polygon edge belongs to exactly one of them. There are `m - 2 + 2 k` for `m` polygon vertices
-/// and `k` interior points.
+/// Returns triangles that index the vertices of all polygons, one after the other, and then the interior points, each
+/// turning like the outer polygon; every polygon edge belongs to exactly one of them. There are `m - 2 + 2 k + 2 h` for
+/// `m` polygon vertices, `k` interior points and `h` inner polygons.
 ///
 /// # Errors
 /// [`ErrorKind::InvalidInput`] for a coordinate that is not finite or exceeds 10^60; [`ErrorKind::Geometry`] when
-/// the polygon is not simple (decided exactly), or an interior point lies outside of it, on it, or on another
-/// interior point.
-pub(crate) fn triangulate_planar(polygon: &[Point2], interior: &[Point2]) -> Result<Vec<[u32; 3]>> {
-    triangulate_planar_region(&[polygon], interior, &|| false)
-}
-
-/// The same between an outer polygon, the first, and polygons inside of it, which turn the other way.
-///
-/// Triangles index the vertices of all polygons, one after the other, and then the interior points. There are
-/// `m - 2 + 2 k + 2 h` for `m` polygon vertices, `k` interior points and `h` inner polygons.
-///
-/// # Errors
-/// Those of [`triangulate_planar`]; [`ErrorKind::Geometry`] also when two polygons meet or one lies outside the
-/// first; [`ErrorKind::Cancelled`].
+/// a polygon is not simple (decided exactly), two polygons meet or one lies outside the first, or an interior point
+/// lies outside, on a polygon, or on another interior point; [`ErrorKind::Cancelled`].
 pub(crate) fn triangulate_planar_region(
     polygons: &[impl AsRef<[Point2]>],
     interior: &[Point2],
@@ -98,7 +86,10 @@ pub(crate) fn triangulate_planar_region(
         .map(|(a, b)| if is_outer_ccw { (a, b) } else { (b, a) })
         .map(|(a, b)| (vertices[a], vertices[b]))
         .collect();
-    for &(a, b) in &edges {
+    for (i, &(a, b)) in edges.iter().enumerate() {
+        if i.is_multiple_of(INSERTIONS_PER_CHECK) {
+            proceed_unless(interrupted)?;
+        }
         if delaunay.try_add_constraint(a, b).is_empty() && polygons.len() > 1 {
             return Err(geometry("two polygons meet in the plane".to_owned()));
         }
@@ -171,6 +162,10 @@ mod tests {
     use proptest::prelude::*;
     use robust::{Coord, incircle};
     use std::f64::consts::TAU;
+
+    fn triangulate_planar(polygon: &[Point2], interior: &[Point2]) -> Result<Vec<[u32; 3]>> {
+        triangulate_planar_region(&[polygon], interior, &|| false)
+    }
 
     fn star(radii: &[f64]) -> Vec<Point2> {
         let step = TAU / radii.len() as f64;

@@ -7,7 +7,7 @@
 use super::creases::Creases;
 use super::hpde;
 use super::staircase::Staircase;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::fair::kharmonic::extend_from_rim;
 use crate::fill::method::Method;
 use crate::fill::options::FillOptions;
@@ -43,6 +43,9 @@ const FINER_TIP: f64 = 0.6;
 /// The same for rims of up to five edges without an interior vertex: refinement splits their edges only above 1.75
 /// target lengths, and a regular pentagon, whose diagonals have 1.62 sides, is a missing vertex with its triangles.
 const FINER_RIM: f64 = 0.8;
+
+/// Points that are moved onto the surface between two questions whether to stop: each may take a tenth of a millisecond.
+const POINTS_PER_CHECK: usize = 64;
 
 /// Smoothings of folded places, at most, each time.
 const MOST_UNFOLDINGS: usize = 20;
@@ -113,7 +116,8 @@ impl<'a> Auto<'a> {
     ) -> Result<PatchSurface> {
         let lengths = &self.hole.edge_lengths;
         let step = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
-        let mut samples = SampledBand::new(Band::new(self.hole), step, self.options.auto.jets);
+        let mut samples = SampledBand::new(Band::new(self.hole), step, self.options.auto.jets)
+            .stopped_by(self.interrupted);
         staircase.check_interruption()?;
         let is_noisy = samples.is_noisy();
         let (candidate, scores, is_tip) = self.choose(method, &mut samples)?;
@@ -149,7 +153,7 @@ impl<'a> Auto<'a> {
         match first {
             Err(error) if error.kind() == ErrorKind::Geometry && !is_noisy => {
                 match self.march_again(&marcher, &faired, staircase) {
-                    Err(other) if other.kind() == ErrorKind::Geometry => Err(error),
+                    Err(other) if other.kind() != ErrorKind::Cancelled => Err(error),
                     done => done,
                 }
             }
@@ -291,16 +295,11 @@ impl Marcher<'_> {
         let (_, diameter) = self.hole.middle_and_diameter();
         let limit = LONGEST_STEP * diameter;
         for _ in 0..MOST_ROUNDS {
-            let mut longest: f64 = 0.0;
-            for p in &mut patch.points[rim_count..] {
-                let moved = march::project(self.surface, p, STEPS, limit);
-                longest = longest.max((moved - *p).norm());
-                *p = moved;
-            }
+            let longest = self.project(&mut patch.points[rim_count..], STEPS, limit)?;
             if !patch.points.iter().flatten().all(|x| x.is_finite()) {
                 return Err(geometry("the patch ran away from the predicted surface"));
             }
-            self.unfold(&mut patch, limit);
+            self.unfold(&mut patch, limit)?;
             let before = patch.triangles.len() as f64;
             staircase.refine_again(&mut patch, &mut sizes)?;
             let growth = (patch.triangles.len() as f64 - before).abs() / before;
@@ -308,19 +307,35 @@ impl Marcher<'_> {
                 break;
             }
         }
-        for p in &mut patch.points[rim_count..] {
-            *p = march::project(self.surface, p, LAST_STEPS, limit);
-        }
-        self.unfold(&mut patch, limit);
+        self.project(&mut patch.points[rim_count..], LAST_STEPS, limit)?;
+        self.unfold(&mut patch, limit)?;
         self.blend(&mut patch, limit)?;
         self.check(&patch, faired)?;
         Ok(patch)
     }
 
+    /// Moves points onto the surface; returns the longest way.
+    fn project(&self, points: &mut [Vec3], steps: usize, limit: f64) -> Result<f64> {
+        let mut longest: f64 = 0.0;
+        for points in points.chunks_mut(POINTS_PER_CHECK) {
+            proceed_unless(self.interrupted)?;
+            for p in points {
+                let moved = march::project(self.surface, p, steps, limit);
+                longest = longest.max((moved - *p).norm());
+                *p = moved;
+            }
+        }
+        Ok(longest)
+    }
+
     /// Smooths the patch where its triangles turn against the surface, and moves it back onto that.
-    fn unfold(&self, patch: &mut PatchSurface, limit: f64) {
+    fn unfold(&self, patch: &mut PatchSurface, limit: f64) -> Result<()> {
         let gradient = |p: &Vec3| unit(self.surface.value_and_gradient(p).1);
-        let mut gradients: Vec<Vec3> = patch.points.iter().map(gradient).collect();
+        let mut gradients = Vec::with_capacity(patch.points.len());
+        for points in patch.points.chunks(POINTS_PER_CHECK) {
+            proceed_unless(self.interrupted)?;
+            gradients.extend(points.iter().map(gradient));
+        }
         for _ in 0..MOST_UNFOLDINGS {
             let mut is_folded = vec![false; patch.points.len()];
             let mut count = 0;
@@ -332,8 +347,9 @@ impl Marcher<'_> {
                 }
             }
             if count == 0 {
-                return;
+                break;
             }
+            proceed_unless(self.interrupted)?;
             let mut sums = vec![(Vec3::zeros(), 0.0); patch.points.len()];
             for t in &patch.triangles {
                 for k in 0..3 {
@@ -353,14 +369,15 @@ impl Marcher<'_> {
                 }
             }
         }
+        Ok(())
     }
 
     /// Adds to the interior what the rim is off the surface, fading inwards.
     fn blend(&self, patch: &mut PatchSurface, limit: f64) -> Result<()> {
-        let offsets: Vec<Vec3> = patch.points[..patch.rim_count]
-            .iter()
-            .map(|p| p - march::project(self.surface, p, LAST_STEPS, limit))
-            .collect();
+        let rim = &patch.points[..patch.rim_count];
+        let mut projected = rim.to_vec();
+        self.project(&mut projected, LAST_STEPS, limit)?;
+        let offsets: Vec<Vec3> = rim.iter().zip(&projected).map(|(p, q)| p - q).collect();
         if patch.points.len() > patch.rim_count {
             let extended = extend_from_rim(patch, &offsets, &mut SpdSolver::new(self.interrupted))?;
             for (p, offset) in patch.points[patch.rim_count..].iter_mut().zip(extended) {
@@ -380,6 +397,7 @@ impl Marcher<'_> {
         if !patch.points.iter().flatten().all(|x| x.is_finite()) {
             return Err(geometry("the predicted patch is not finite"));
         }
+        proceed_unless(self.interrupted)?;
         let folded = folded_share(patch);
         let count = patch.triangles.len().max(1) as f64;
         if folded >= FOLDED_SHARE.max(FOLDED_COUNT / count) {
@@ -388,6 +406,7 @@ impl Marcher<'_> {
         if area(patch) > AREA_GROWTH[usize::from(self.is_tip)] * area(faired) {
             return Err(geometry("the predicted patch is far larger than the hole"));
         }
+        proceed_unless(self.interrupted)?;
         let bent = self.bent_share(patch);
         if bent > BENT_SHARE && bent > self.bent_share(faired) {
             return Err(geometry("the predicted patch leaves the rim at an angle"));

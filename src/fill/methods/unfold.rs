@@ -13,7 +13,7 @@ use crate::math::Vec3;
 use crate::math::sparse::SpdSolver;
 use crate::patch::{HoleShape, PatchSurface};
 use crate::refine::{RefineOptions, grading, refine, rim_sizes};
-use crate::triangulate::planar::triangulate_planar;
+use crate::triangulate::planar::triangulate_planar_region;
 use crate::triangulate::unfold::unfold;
 
 /// Times that a patch is refined and shaped again because its shape made edges too long. Each time fewer are;
@@ -103,7 +103,7 @@ impl<'a> Unfold<'a> {
             .collect();
         let options = self.options;
         let unfolding = unfold(&curve, &options.unfold, options.seed, self.interrupted)?;
-        let triangles = triangulate_planar(&unfolding.polygon, &[])?;
+        let triangles = triangulate_planar_region(&[&unfolding.polygon], &[], self.interrupted)?;
         let mut surface = PatchSurface {
             rim_count: hole.points.len(),
             points: hole.points.clone(),

@@ -4,6 +4,7 @@
 //! Computer-Aided Design 45, 2013, section 4.3, equations 9 and 10. `O(n²)`.
 
 use super::base_points::{BasePoint, rim_direction};
+use crate::error::{Result, proceed_unless};
 use crate::math::{Vec3, unit};
 
 /// A pair of base points that face each other, as indices of the rotated sequence: `first < second`.
@@ -13,9 +14,15 @@ pub(crate) struct Pair {
     pub(crate) second: usize,
 }
 
+/// Starts that are compared between two questions whether to stop.
+const STARTS_PER_CHECK: usize = 64;
+
 /// The start of the sequence for which the distances between the points `i` and `n - 1 - i` have the smallest sum,
 /// equation 10.
-pub(super) fn best_start(base: &[BasePoint]) -> usize {
+///
+/// # Errors
+/// `Cancelled` when `interrupted` returns true.
+pub(super) fn best_start(base: &[BasePoint], interrupted: &dyn Fn() -> bool) -> Result<usize> {
     let n = base.len();
     let sum = |start: usize| -> f64 {
         (0..n / 2)
@@ -28,12 +35,15 @@ pub(super) fn best_start(base: &[BasePoint]) -> usize {
     };
     let mut best = (0, f64::INFINITY);
     for start in 0..n / 2 {
+        if start.is_multiple_of(STARTS_PER_CHECK) {
+            proceed_unless(interrupted)?;
+        }
         let distance = sum(start);
         if distance < best.1 {
             best = (start, distance);
         }
     }
-    best.0
+    Ok(best.0)
 }
 
 /// The start of the sequence in which the base points `i` and `j` face each other, equation 9; if no start does,
@@ -88,7 +98,7 @@ mod tests {
     fn sections_cross_an_ellipse_the_short_way() {
         for turn in 0..12 {
             let base = ellipse(24, 3.0, 1.0, turn);
-            let start = best_start(&base);
+            let start = best_start(&base, &|| false).unwrap();
             let n = base.len();
             for i in 0..n / 2 {
                 let a = base[(start + i) % n].position;

@@ -32,7 +32,7 @@ use super::surface::jets::Band;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::Vec3;
 use crate::patch::{HoleShape, PatchSurface};
-use crate::triangulate::planar::triangulate_planar;
+use crate::triangulate::planar::triangulate_planar_region;
 use base_points::base_points;
 use correspondences::{best_start, pairs, start_of_cut};
 use inside::Inside;
@@ -104,7 +104,7 @@ pub(crate) fn patch_along(
                 fold = Some(at.min(n - 1 - at));
                 start
             }
-            None => best_start(&base),
+            None => best_start(&base, interrupted)?,
         };
         base.rotate_left(start);
     }
@@ -245,7 +245,7 @@ fn triangulated<'a>(
     }
     for _ in 0..MOST_ROUNDS {
         let inside: Vec<[f64; 2]> = predicted.iter().map(|p| p.1).collect();
-        let triangles = triangulate_planar(&layout.rim, &inside)?;
+        let triangles = triangulate_planar_region(&[&layout.rim], &inside, interrupted)?;
         // The layout has the rim in the order of the polygon.
         let number = |v: u32| hole.polygon.get(v as usize).copied().unwrap_or(v);
         let mut points = hole.points.clone();

@@ -20,7 +20,7 @@ const SMOOTHING_RINGS: [usize; 2] = [3, 4];
 const LAST_NOISE_LEVEL: u32 = 7;
 
 /// The known surface round a hole, read on demand.
-pub(crate) struct SampledBand {
+pub(crate) struct SampledBand<'a> {
     pub(crate) band: Band,
     /// Mean length of the edges at the rim.
     pub(crate) step: f64,
@@ -31,9 +31,10 @@ pub(crate) struct SampledBand {
     spreads: Vec<(Range<u32>, Vec<u32>)>,
     normals: Vec<Option<Vec3>>,
     smoothed: Vec<Option<Sample>>,
+    interrupted: &'a dyn Fn() -> bool,
 }
 
-impl SampledBand {
+impl<'a> SampledBand<'a> {
     /// Measures the noise; normals are computed when they are asked for. Without `use_jets` normals are those of the
     /// triangles.
     pub(crate) fn new(band: Band, step: f64, use_jets: bool) -> Self {
@@ -47,7 +48,14 @@ impl SampledBand {
             spreads: Vec::new(),
             normals: vec![None; count],
             smoothed: vec![None; count],
+            interrupted: &|| false,
         }
+    }
+
+    /// The same, of no more use once `interrupted` returns true: then [`spread`](Self::spread) ends early.
+    pub(crate) fn stopped_by(mut self, interrupted: &'a dyn Fn() -> bool) -> Self {
+        self.interrupted = interrupted;
+        self
     }
 
     /// Whether the positions are noisy: then fits that interpolate them follow the noise.
@@ -118,7 +126,7 @@ impl SampledBand {
         let mut chosen = Vec::with_capacity(MOST_SPREAD.min(vertices.len()));
         let mut next = farthest(&reach);
         reach.fill(f64::INFINITY);
-        while chosen.len() < MOST_SPREAD {
+        while chosen.len() < MOST_SPREAD && !(self.interrupted)() {
             let at = point(vertices[next]);
             chosen.push(vertices[next]);
             for (distance, &v) in reach.iter_mut().zip(&vertices) {

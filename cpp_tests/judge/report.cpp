@@ -45,13 +45,14 @@ bool run_report(const Arguments& arguments) {
          "and over the area; more than 1e-9 counts as different. Ties: angles that are equal but for their last bits, on "
          "symmetrical rims, for which rounding chooses among areas; these rims are compared again with noise of a millionth "
          "of their size.\n"},
-        {"fairing.md",
+        {"fairing-totals.md",
          "## Fairing\n\nThe same refined patch faired by both. To CGAL, its weights: the largest distance of a vertex from "
          "CGAL's with `fair.weights=voronoi` and `fair.passes=1`, over the diameter of the hole; at most 1e-6 is allowed. To "
          "CGAL, our weights: the same with the defaults. Energy: area, squared mean curvature, or squared slope of it, of "
          "the faired surface as it is, ours by default over CGAL's. To the truth: root mean square from the patch, over the "
          "diameter. The three largest holes of each case with three complete rings of triangles round them, of up to 8,000 "
-         "new vertices.\n"},
+         "new vertices. Energies and distances that differ by less than a thousandth count as the same.\n"},
+        {"fairing.md", "The single holes:\n"},
         {"mutations.md", "## Corrupted results\n\nHow many were caught, and by which judge.\n"},
         {"inputs.md",
          "## Inputs of CGAL's tests\n\nTwo are made in code after the kinds of input that have no patch there.\n"},

@@ -190,6 +190,88 @@ void arrays() {
     CHECK_OK(holefill_mesh_free(mesh));
 }
 
+void points() {
+    Fixture f;
+    const HolefillInput good = f.input();
+    HolefillMesh mesh{77};
+    HolefillPointSummary summary = HOLEFILL_POINT_SUMMARY_INIT;
+    const auto from = [&](const HolefillInput* points, const HolefillInput* normals, const HolefillInput* colors) {
+        return holefill_mesh_from_points(points, normals, colors, nullptr, &mesh, &summary, nullptr);
+    };
+    const auto in_every_place = [&](const HolefillInput& bad, HolefillStatus expected) {
+        CHECK_FAILS(from(&bad, nullptr, nullptr), expected);
+        CHECK_FAILS(from(&good, &bad, nullptr), expected);
+        CHECK_FAILS(from(&good, nullptr, &bad), expected);
+    };
+    CHECK_FAILS(from(nullptr, nullptr, nullptr), HOLEFILL_STATUS_NULL_POINTER);
+    CHECK_FAILS(holefill_mesh_from_points(&good, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr),
+                HOLEFILL_STATUS_NULL_POINTER);
+    const uint64_t huge = std::numeric_limits<uint64_t>::max();
+    HolefillInput bad = good;
+    bad.data = nullptr;
+    in_every_place(bad, HOLEFILL_STATUS_NULL_POINTER);
+    for (const uint64_t count : {huge, huge / 2, huge / 24, uint64_t{1} << 60}) {
+        bad = good;
+        bad.count = count;
+        in_every_place(bad, HOLEFILL_STATUS_OVERFLOW);
+        bad = good;
+        bad.stride = count;
+        in_every_place(bad, HOLEFILL_STATUS_OVERFLOW);
+    }
+    bad = good;
+    bad.stride = 8;
+    in_every_place(bad, HOLEFILL_STATUS_INVALID_ARGUMENT);
+    bad = good;
+    bad.scalar_type = HOLEFILL_TYPE_U64;
+    in_every_place(bad, HOLEFILL_STATUS_INVALID_ARGUMENT);
+    bad = good;
+    bad.reserved = 1;
+    in_every_place(bad, HOLEFILL_STATUS_INVALID_STRUCT);
+    bad = good;
+    bad.count -= 1;
+    CHECK_FAILS(from(&good, &bad, nullptr), HOLEFILL_STATUS_INVALID_ARGUMENT);
+    CHECK_FAILS(from(&good, nullptr, &bad), HOLEFILL_STATUS_INVALID_ARGUMENT);
+    bad.count = 3;
+    CHECK_FAILS(from(&bad, nullptr, nullptr), HOLEFILL_STATUS_INVALID_ARGUMENT);
+    std::vector<double> spoiled(f.sheet.positions, f.sheet.positions + 3 * f.sheet.vertex_count);
+    spoiled[4] = std::nan("");
+    bad = good;
+    bad.data = spoiled.data();
+    CHECK_FAILS(from(&bad, nullptr, nullptr), HOLEFILL_STATUS_NOT_FINITE);
+    CHECK_FAILS(from(&good, &bad, nullptr), HOLEFILL_STATUS_NOT_FINITE);
+
+    const auto with = [&](const HolefillPointOptions& options) {
+        return holefill_mesh_from_points(&good, nullptr, nullptr, &options, &mesh, &summary, nullptr);
+    };
+    HolefillPointOptions options = HOLEFILL_POINT_OPTIONS_INIT;
+    options.struct_size = 8;
+    CHECK_FAILS(with(options), HOLEFILL_STATUS_INVALID_STRUCT);
+    options = HOLEFILL_POINT_OPTIONS_INIT;
+    options.version = 0;
+    CHECK_FAILS(with(options), HOLEFILL_STATUS_INVALID_STRUCT);
+    for (const double value : {-1.0, std::nan(""), HUGE_VAL}) {
+        options = HOLEFILL_POINT_OPTIONS_INIT;
+        options.radius = value;
+        CHECK_FAILS(with(options), HOLEFILL_STATUS_INVALID_ARGUMENT);
+        options = HOLEFILL_POINT_OPTIONS_INIT;
+        options.time_budget = value;
+        CHECK_FAILS(with(options), HOLEFILL_STATUS_INVALID_ARGUMENT);
+    }
+    options = HOLEFILL_POINT_OPTIONS_INIT;
+    options.neighbours = 1000;
+    CHECK_FAILS(with(options), HOLEFILL_STATUS_INVALID_ARGUMENT);
+    options = HOLEFILL_POINT_OPTIONS_INIT;
+    options.threads = 1000000;
+    CHECK_FAILS(with(options), HOLEFILL_STATUS_LIMIT);
+    options = HOLEFILL_POINT_OPTIONS_INIT;
+    options.time_budget = 1e-9;
+    CHECK_FAILS(with(options), HOLEFILL_STATUS_LIMIT);
+    CHECK(mesh.id == 77 && summary.triangle_count == 0);
+    summary.version = 0;
+    CHECK_FAILS(from(&good, nullptr, nullptr), HOLEFILL_STATUS_INVALID_STRUCT);
+    CHECK(mesh.id == 77);
+}
+
 void null_pointers() {
     Fixture f;
     const uint64_t before = f.hash();
@@ -425,6 +507,7 @@ void unfillable() {
 int main() {
     handles();
     arrays();
+    points();
     null_pointers();
     wrong_structs_and_values();
     cancel_at_every_call();

@@ -5,8 +5,10 @@
 #include <holefill.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <stdexcept>
 #include <type_traits>
@@ -201,6 +203,60 @@ void polylines() {
     CHECK(highest > 0.1);
 }
 
+void points() {
+    Sheet sheet = sheet_new();
+    const holefill::Rows<3> samples(sheet.positions, sheet.vertex_count);
+    HolefillPointSummary summary{};
+    holefill::Mesh plain = holefill::Mesh::from_points(samples);
+    CHECK(plain.info().vertex_count == sheet.vertex_count);
+    std::vector<std::array<float, 3>> down(sheet.vertex_count, {0.0f, 0.0f, -1.0f});
+    std::vector<std::array<uint8_t, 3>> red(sheet.vertex_count, {255, 0, 0});
+    holefill::PointOptions options;
+    options.threads = 1;
+    uint64_t questions = 0;
+    options.on_progress = [&](const HolefillProgress&) {
+        ++questions;
+        return true;
+    };
+    holefill::Mesh mesh = holefill::Mesh::from_points(samples, down, red, options, &summary);
+    CHECK(summary.used == sheet.vertex_count && summary.triangle_count == mesh.info().triangle_count);
+    CHECK(mesh.attributes(HOLEFILL_ELEMENT_VERTEX).at(0).name == "color");
+    CHECK(mesh.attribute<uint8_t>(HOLEFILL_ELEMENT_VERTEX, 0).at(0) == 255);
+    const auto positions = mesh.positions();
+    const auto t = mesh.triangles().at(0);
+    const auto &a = positions[t[0]], &b = positions[t[1]], &c = positions[t[2]];
+    CHECK((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) < 0.0);
+    try {
+        holefill::Mesh::from_points(holefill::Rows<3>(sheet.positions, 3));
+        CHECK(false);
+    } catch (const holefill::Exception& e) {
+        CHECK(e.status() == HOLEFILL_STATUS_INVALID_ARGUMENT);
+    }
+    sheet_free(&sheet);
+
+    // Enough points that there is time for a question.
+    std::vector<std::array<double, 3>> many;
+    for (int i = 0; i < 300; ++i) {
+        for (int j = 0; j < 300; ++j) {
+            many.push_back({double(i), double(j), std::sin(0.1 * i)});
+        }
+    }
+    options.on_progress = [](const HolefillProgress&) -> bool { throw std::runtime_error("enough"); };
+    try {
+        holefill::Mesh::from_points(many, std::nullopt, std::nullopt, options);
+        CHECK(false);
+    } catch (const std::runtime_error& e) {
+        CHECK(std::string(e.what()) == "enough");
+    }
+    options.on_progress = [](const HolefillProgress&) { return false; };
+    try {
+        holefill::Mesh::from_points(many, std::nullopt, std::nullopt, options);
+        CHECK(false);
+    } catch (const holefill::Exception& e) {
+        CHECK(e.status() == HOLEFILL_STATUS_CANCELLED);
+    }
+}
+
 } // namespace
 
 int main() {
@@ -208,6 +264,7 @@ int main() {
     failures_are_exceptions();
     callbacks_may_throw();
     polylines();
+    points();
     CHECK(holefill_handle_count() == 0);
     std::puts("wrapper: ok");
     return 0;

@@ -44,6 +44,37 @@
 #endif
 #endif
 
+/* Initial values for structs of the caller: the defaults, or nothing. */
+#define HOLEFILL_INPUT_INIT {0, 0, 0, 0, 0}
+#define HOLEFILL_OUTPUT_INIT {0, 0, 0, 0, 0}
+#define HOLEFILL_MESH_INFO_INIT \
+    {(uint32_t)sizeof(HolefillMeshInfo), HOLEFILL_MESH_INFO_VERSION, 0, 0, 0, 0, 0, 0, 0}
+#define HOLEFILL_DEFECTS_INIT \
+    {(uint32_t)sizeof(HolefillDefects), HOLEFILL_DEFECTS_VERSION, 0, 0, 0, 0, 0}
+#define HOLEFILL_ATTRIBUTE_INFO_INIT \
+    {(uint32_t)sizeof(HolefillAttributeInfo), HOLEFILL_ATTRIBUTE_INFO_VERSION, 0, 0, 0}
+#define HOLEFILL_LOOP_INFO_INIT \
+    {(uint32_t)sizeof(HolefillLoopInfo), HOLEFILL_LOOP_INFO_VERSION, \
+     0, 0, 0, {0, 0}, 0, {0, 0, 0}, 0, 0, 0, 0}
+#define HOLEFILL_SELECTION_INIT \
+    {(uint32_t)sizeof(HolefillSelection), HOLEFILL_SELECTION_VERSION, \
+     HOLEFILL_INPUT_INIT, HOLEFILL_INPUT_INIT, 0, 0, 0}
+#define HOLEFILL_FILL_OPTIONS_INIT \
+    {(uint32_t)sizeof(HolefillFillOptions), HOLEFILL_FILL_OPTIONS_VERSION, \
+     0, {0}, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}
+#define HOLEFILL_POINT_OPTIONS_INIT \
+    {(uint32_t)sizeof(HolefillPointOptions), HOLEFILL_POINT_OPTIONS_VERSION, 0, 0, 0, 0, 0, 0}
+#define HOLEFILL_POINT_SUMMARY_INIT \
+    {(uint32_t)sizeof(HolefillPointSummary), HOLEFILL_POINT_SUMMARY_VERSION, \
+     0, 0, 0, 0, 0, 0, {0, 0, 0}}
+#define HOLEFILL_PATCH_INFO_INIT \
+    {(uint32_t)sizeof(HolefillPatchInfo), HOLEFILL_PATCH_INFO_VERSION, 0, 0, 0}
+#define HOLEFILL_HOLE_INIT \
+    {(uint32_t)sizeof(HolefillHole), HOLEFILL_HOLE_VERSION, \
+     0, 0, {0, 0}, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}
+#define HOLEFILL_SUMMARY_INIT \
+    {(uint32_t)sizeof(HolefillSummary), HOLEFILL_SUMMARY_VERSION, 0, 0, 0, 0, 0, 0, 0, 0, 0}
+
 /**
  * The version of the interface that this header declares. It changes when a function or a struct is changed so that
  * callers must be compiled anew; functions, statuses and fields at the end of structs come without a change.
@@ -84,6 +115,16 @@
  * The version of `HolefillFillOptions`.
  */
 #define HOLEFILL_FILL_OPTIONS_VERSION 1
+
+/**
+ * The version of `HolefillPointOptions`.
+ */
+#define HOLEFILL_POINT_OPTIONS_VERSION 1
+
+/**
+ * The version of `HolefillPointSummary`.
+ */
+#define HOLEFILL_POINT_SUMMARY_VERSION 1
 
 /**
  * The version of `HolefillPatchInfo`.
@@ -264,6 +305,127 @@ typedef struct HolefillOutput {
 } HolefillOutput;
 
 /**
+ * How far a fill or plan has come.
+ */
+typedef struct HolefillProgress {
+    /**
+     * `sizeof(HolefillProgress)` of the library: read only fields within it.
+     */
+    uint32_t struct_size;
+    /**
+     * The `HOLEFILL_PROGRESS_VERSION` of the library.
+     */
+    uint32_t version;
+    /**
+     * Holes that are finished, whatever became of them.
+     */
+    uint64_t holes_done;
+    /**
+     * Holes to fill or plan.
+     */
+    uint64_t holes_total;
+    /**
+     * Seconds since the call began.
+     */
+    double seconds;
+} HolefillProgress;
+
+/**
+ * Told how far the work has come: after each hole, and within a hole about every 10 ms while the algorithms can be
+ * stopped. A value other than 0 stops the call with `HOLEFILL_STATUS_CANCELLED`.
+ *
+ * It is called during the call that it was given to and never after it, one call at a time, from the thread that made
+ * the call or any thread of the library. It may call the library; on the mesh
+ * that is being filled every call returns `HOLEFILL_STATUS_BUSY`, on one that is being planned those that change it. It
+ * must return: an exception or `longjmp` must not leave it. (holefill.hpp catches what a C++ function throws, stops
+ * the call, and throws it again after the call has returned.)
+ */
+typedef int32_t (*HolefillProgressCallback)(const struct HolefillProgress *progress, void *user_data);
+
+/**
+ * How a mesh is made from points. All zero but the first two fields is the default, and so is a null pointer in the
+ * place of the struct.
+ */
+typedef struct HolefillPointOptions {
+    /**
+     * `sizeof(HolefillPointOptions)`
+     */
+    uint32_t struct_size;
+    /**
+     * `HOLEFILL_POINT_OPTIONS_VERSION`
+     */
+    uint32_t version;
+    /**
+     * The largest radius of the circle through the corners of a triangle, in units of the positions: a hole that such a
+     * circle passes through stays open. 0 takes three times the median of the neighbourhood.
+     */
+    double radius;
+    /**
+     * How many of the nearest points each point chooses its triangles from, 6 to 200; 0 is 24.
+     */
+    uint32_t neighbours;
+    /**
+     * Threads that work, at most 1024; 0 is as many as there are processors. The result is the same for any number.
+     */
+    uint32_t threads;
+    /**
+     * Seconds that the call may take; 0 is no limit. When they run out the status is `HOLEFILL_STATUS_LIMIT`.
+     */
+    double time_budget;
+    /**
+     * Asked about every 10 ms whether to go on, with 0 of 0 holes; may be null.
+     */
+    HolefillProgressCallback progress;
+    /**
+     * Handed to `progress`.
+     */
+    void *progress_data;
+} HolefillPointOptions;
+
+/**
+ * What became of points that a mesh was made from.
+ */
+typedef struct HolefillPointSummary {
+    /**
+     * `sizeof(HolefillPointSummary)`
+     */
+    uint32_t struct_size;
+    /**
+     * `HOLEFILL_POINT_SUMMARY_VERSION`
+     */
+    uint32_t version;
+    /**
+     * Points that a triangle uses.
+     */
+    uint64_t used;
+    /**
+     * Points at the place of an earlier one; no triangle uses them.
+     */
+    uint64_t duplicates;
+    /**
+     * Other points that no triangle uses.
+     */
+    uint64_t unused;
+    /**
+     * Triangles.
+     */
+    uint64_t triangle_count;
+    /**
+     * Pieces of surface that share no vertex.
+     */
+    uint64_t piece_count;
+    /**
+     * Normals that were not given, and were estimated.
+     */
+    uint64_t estimated_normals;
+    /**
+     * The largest radius of a triangle's circle that was allowed, in units of the positions: the smallest, the median and
+     * the largest over the points.
+     */
+    double radius[3];
+} HolefillPointSummary;
+
+/**
  * What an attribute belongs to: one of the `HOLEFILL_ELEMENT_` constants.
  */
 typedef uint32_t HolefillElement;
@@ -404,44 +566,6 @@ typedef struct HolefillParameters {
  * How important a message is: one of the `HOLEFILL_LOG_` constants.
  */
 typedef uint32_t HolefillLogLevel;
-
-/**
- * How far a fill or plan has come.
- */
-typedef struct HolefillProgress {
-    /**
-     * `sizeof(HolefillProgress)` of the library: read only fields within it.
-     */
-    uint32_t struct_size;
-    /**
-     * The `HOLEFILL_PROGRESS_VERSION` of the library.
-     */
-    uint32_t version;
-    /**
-     * Holes that are finished, whatever became of them.
-     */
-    uint64_t holes_done;
-    /**
-     * Holes to fill or plan.
-     */
-    uint64_t holes_total;
-    /**
-     * Seconds since the call began.
-     */
-    double seconds;
-} HolefillProgress;
-
-/**
- * Told how far the work has come: after each hole, and within a hole about every 10 ms while the algorithms can be
- * stopped. A value other than 0 stops the call with `HOLEFILL_STATUS_CANCELLED`.
- *
- * It is called during the call that it was given to and never after it, one call at a time, from the thread that made
- * the call or any thread of the library. It may call the library; on the mesh
- * that is being filled every call returns `HOLEFILL_STATUS_BUSY`, on one that is being planned those that change it. It
- * must return: an exception or `longjmp` must not leave it. (holefill.hpp catches what a C++ function throws, stops
- * the call, and throws it again after the call has returned.)
- */
-typedef int32_t (*HolefillProgressCallback)(const struct HolefillProgress *progress, void *user_data);
 
 /**
  * Told what happened, in one line without a line break. The text is the library's and lasts until the function
@@ -1111,6 +1235,37 @@ HolefillStatus holefill_mesh_read_triangles(struct HolefillMesh mesh,
                                             struct HolefillError *error);
 
 /**
+ * Makes a mesh from copies of unorganised points, such as those of a scanner: oriented, without edges of more than two
+ * triangles, and open where there are no samples. Its holes are filled like those of any mesh.
+ *
+ * `points`: rows of three, `float` or `double`. They are the vertices, all of them, in their order and, in double
+ * precision, with their bits; those that no triangle uses stay as isolated vertices.
+ *
+ * `normals` may be null. Otherwise it has a row of three for each point, of any length, pointing outward: triangles face
+ * where they point. A normal that is zero is not known and is estimated, as all are without `normals`; each piece of
+ * surface then faces away from its middle. Normals are not kept: `holefill_mesh_add_attribute` does that.
+ *
+ * `colors` may be null. Otherwise it has a row of three numbers for each point, of any type but `uint64_t`, which become
+ * the vertex attribute `color`: as if added by `holefill_mesh_add_attribute`.
+ *
+ * `options` may be null. `mesh` gets the handle. `summary` may be null; otherwise it gets what became of the points.
+ *
+ * Time is O(n log n), memory about 1 kB for each point.
+ *
+ * Statuses: as `holefill_mesh_from_arrays`, but for `INDEX_OUT_OF_RANGE`; `INVALID_ARGUMENT` also for fewer than four
+ * different points, points on one line, points of which no three make a triangle, another number of normals or colors, and
+ * options out of range; `LIMIT` also when the time ran out; `CANCELLED`.
+ */
+HOLEFILL_API
+HolefillStatus holefill_mesh_from_points(const struct HolefillInput *points,
+                                         const struct HolefillInput *normals,
+                                         const struct HolefillInput *colors,
+                                         const struct HolefillPointOptions *options,
+                                         struct HolefillMesh *mesh,
+                                         struct HolefillPointSummary *summary,
+                                         struct HolefillError *error);
+
+/**
  * Adds an attribute to the vertices or the triangles of a mesh, and copies its values.
  *
  * `name` is UTF-8 and unique among those of the element. `values` has a row of `components` numbers for each vertex or
@@ -1620,29 +1775,3 @@ HOLEFILL_API HolefillStatus holefill_report_free(struct HolefillReport report);
 #endif  // __cplusplus
 
 #endif  /* HOLEFILL_H */
-
-/* Initial values for structs of the caller: the defaults, or nothing. */
-#define HOLEFILL_INPUT_INIT {0, 0, 0, 0, 0}
-#define HOLEFILL_OUTPUT_INIT {0, 0, 0, 0, 0}
-#define HOLEFILL_MESH_INFO_INIT \
-    {(uint32_t)sizeof(HolefillMeshInfo), HOLEFILL_MESH_INFO_VERSION, 0, 0, 0, 0, 0, 0, 0}
-#define HOLEFILL_DEFECTS_INIT \
-    {(uint32_t)sizeof(HolefillDefects), HOLEFILL_DEFECTS_VERSION, 0, 0, 0, 0, 0}
-#define HOLEFILL_ATTRIBUTE_INFO_INIT \
-    {(uint32_t)sizeof(HolefillAttributeInfo), HOLEFILL_ATTRIBUTE_INFO_VERSION, 0, 0, 0}
-#define HOLEFILL_LOOP_INFO_INIT \
-    {(uint32_t)sizeof(HolefillLoopInfo), HOLEFILL_LOOP_INFO_VERSION, \
-     0, 0, 0, {0, 0}, 0, {0, 0, 0}, 0, 0, 0, 0}
-#define HOLEFILL_SELECTION_INIT \
-    {(uint32_t)sizeof(HolefillSelection), HOLEFILL_SELECTION_VERSION, \
-     HOLEFILL_INPUT_INIT, HOLEFILL_INPUT_INIT, 0, 0, 0}
-#define HOLEFILL_FILL_OPTIONS_INIT \
-    {(uint32_t)sizeof(HolefillFillOptions), HOLEFILL_FILL_OPTIONS_VERSION, \
-     0, {0}, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}
-#define HOLEFILL_PATCH_INFO_INIT \
-    {(uint32_t)sizeof(HolefillPatchInfo), HOLEFILL_PATCH_INFO_VERSION, 0, 0, 0}
-#define HOLEFILL_HOLE_INIT \
-    {(uint32_t)sizeof(HolefillHole), HOLEFILL_HOLE_VERSION, \
-     0, 0, {0, 0}, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}
-#define HOLEFILL_SUMMARY_INIT \
-    {(uint32_t)sizeof(HolefillSummary), HOLEFILL_SUMMARY_VERSION, 0, 0, 0, 0, 0, 0, 0, 0, 0}

@@ -323,27 +323,27 @@ private:
     Log log_;
 };
 
+/* How a mesh is made from points; all 0 is the default. */
+struct PointOptions {
+    /* The largest radius of the circle through the corners of a triangle. */
+    double radius = 0.0;
+    /* How many of the nearest points each point chooses its triangles from, 6 to 200. */
+    uint32_t neighbours = 0;
+    uint32_t threads = 0;
+    /* In seconds. */
+    double time_budget = 0.0;
+    /* Returns false to stop. */
+    Options::Progress on_progress;
+};
+
 namespace detail {
 
-/* One call with options: hands the callbacks through C, and what they throw back to the caller. */
-class Call {
+/* Hands callbacks through C, and what they throw back to the caller. */
+class Callbacks {
 public:
-    explicit Call(const Options& options) : options_(options), raw_(options.raw_) {
-        raw_.method = options.method_.empty() ? nullptr : options.method_.c_str();
-        raw_.parameters = options.parameters_.get();
-        if (options.progress_ || options.log_) {
-            raw_.progress = &Call::progress;
-            raw_.progress_data = this;
-        }
-        if (options.log_) {
-            raw_.log = &Call::log;
-            raw_.log_data = this;
-        }
-    }
-    Call(const Call&) = delete;
-    Call& operator=(const Call&) = delete;
-
-    const HolefillFillOptions* get() const noexcept { return &raw_; }
+    Callbacks(const Options::Progress& progress, const Options::Log& log) : progress_(progress), log_(log) {}
+    Callbacks(const Callbacks&) = delete;
+    Callbacks& operator=(const Callbacks&) = delete;
 
     /* To be called when the C function has returned. */
     void rethrow() {
@@ -354,18 +354,18 @@ public:
 #endif
     }
 
-private:
     static int32_t progress(const HolefillProgress* progress, void* data) {
-        Call& call = *static_cast<Call*>(data);
+        Callbacks& self = *static_cast<Callbacks*>(data);
         bool goes_on = true;
-        call.guarded([&] { goes_on = !call.options_.progress_ || call.options_.progress_(*progress); });
-        return goes_on && !call.has_thrown() ? 0 : 1;
+        self.guarded([&] { goes_on = !self.progress_ || self.progress_(*progress); });
+        return goes_on && !self.has_thrown() ? 0 : 1;
     }
     static void log(HolefillLogLevel level, const char* message, void* data) {
-        Call& call = *static_cast<Call*>(data);
-        call.guarded([&] { call.options_.log_(level, message); });
+        Callbacks& self = *static_cast<Callbacks*>(data);
+        self.guarded([&] { self.log_(level, message); });
     }
 
+private:
     template <class Function>
     void guarded(Function function) {
 #ifndef HOLEFILL_NO_EXCEPTIONS
@@ -390,12 +390,35 @@ private:
 #endif
     }
 
-    const Options& options_;
-    HolefillFillOptions raw_;
+    const Options::Progress& progress_;
+    const Options::Log& log_;
 #ifndef HOLEFILL_NO_EXCEPTIONS
     std::mutex mutex_;
     std::exception_ptr thrown_;
 #endif
+};
+
+/* One call with options. */
+class Call : public Callbacks {
+public:
+    explicit Call(const Options& options) : Callbacks(options.progress_, options.log_), raw_(options.raw_) {
+        Callbacks* callbacks = this;
+        raw_.method = options.method_.empty() ? nullptr : options.method_.c_str();
+        raw_.parameters = options.parameters_.get();
+        if (options.progress_ || options.log_) {
+            raw_.progress = &Callbacks::progress;
+            raw_.progress_data = callbacks;
+        }
+        if (options.log_) {
+            raw_.log = &Callbacks::log;
+            raw_.log_data = callbacks;
+        }
+    }
+
+    const HolefillFillOptions* get() const noexcept { return &raw_; }
+
+private:
+    HolefillFillOptions raw_;
 };
 
 } // namespace detail
@@ -533,6 +556,36 @@ public:
     static Result<Mesh> from_polyline(const Rows<3>& points) { return from_polyline(points, nullptr); }
     static Result<Mesh> from_polyline(const Rows<3>& points, const Rows<3>& normals) {
         return from_polyline(points, normals.get());
+    }
+
+    /* The points are the vertices. `normals` and `colors` have a row for each point, if they are there. `summary` gets
+     * what became of the points, if it is not null. */
+    static Result<Mesh> from_points(const Rows<3>& points, const std::optional<Rows<3>>& normals = std::nullopt,
+                                    const std::optional<Rows<3>>& colors = std::nullopt,
+                                    const PointOptions& options = {}, HolefillPointSummary* summary = nullptr) {
+        detail::ErrorObject error;
+        const Options::Log no_log;
+        detail::Callbacks callbacks(options.on_progress, no_log);
+        HolefillPointOptions raw = HOLEFILL_POINT_OPTIONS_INIT;
+        raw.radius = options.radius;
+        raw.neighbours = options.neighbours;
+        raw.threads = options.threads;
+        raw.time_budget = options.time_budget;
+        if (options.on_progress) {
+            raw.progress = &detail::Callbacks::progress;
+            raw.progress_data = &callbacks;
+        }
+        HolefillPointSummary became = HOLEFILL_POINT_SUMMARY_INIT;
+        HolefillMesh handle{};
+        const HolefillStatus status =
+            holefill_mesh_from_points(points.get(), normals ? normals->get() : nullptr, colors ? colors->get() : nullptr,
+                                      &raw, &handle, &became, error.get());
+        Mesh mesh(handle);
+        callbacks.rethrow();
+        if (summary && status == HOLEFILL_STATUS_OK) {
+            *summary = became;
+        }
+        return detail::result(status, error, std::move(mesh));
     }
 
     Result<HolefillMeshInfo> info() const {

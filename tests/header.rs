@@ -7,12 +7,13 @@ use std::mem::offset_of;
 use std::path::{Path, PathBuf};
 
 /// The parts of the interface, in the order in which the header has them.
-const PARTS: [&str; 11] = [
+const PARTS: [&str; 12] = [
     "version",
     "status",
     "types",
     "error",
     "mesh",
+    "points",
     "attributes",
     "loops",
     "options",
@@ -107,7 +108,7 @@ fn the_list_of_functions_changes_only_on_purpose() {
         "functions.txt",
         &names,
         "A function that is gone or has other arguments breaks every caller: raise HOLEFILL_ABI_VERSION in \
-         src/ffi/version.rs, the SONAME in build.rs, and the major version. One that has come needs the minor \
+         src/ffi/version.rs, which the SONAME follows, and the major version. One that has come needs the minor \
          version in Cargo.toml. Then run `HOLEFILL_UPDATE=1 cargo test --test header`.",
     );
 }
@@ -150,6 +151,12 @@ fn layout() -> String {
         HolefillFillOptions {
             struct_size, version, method, parameters, seed, time_budget, density, max_new_vertices, threads, log_level,
             progress, progress_data, log, log_data
+        }
+        HolefillPointOptions {
+            struct_size, version, radius, neighbours, threads, time_budget, progress, progress_data
+        }
+        HolefillPointSummary {
+            struct_size, version, used, duplicates, unused, triangle_count, piece_count, estimated_normals, radius
         }
         HolefillPatchInfo { struct_size, version, first_vertex, vertex_count, triangle_count }
         HolefillHole {
@@ -205,18 +212,18 @@ fn the_layout_of_the_structs_changes_only_on_purpose() {
     compare(
         "layout.txt",
         &layout,
-        "A field that moved or is gone breaks every caller: raise HOLEFILL_ABI_VERSION in src/ffi/version.rs, the \
-         SONAME in build.rs, and the major version. A field that was added at the end of a struct with struct_size \
+        "A field that moved or is gone breaks every caller: raise HOLEFILL_ABI_VERSION in src/ffi/version.rs, which \
+         the SONAME follows, and the major version. A field that was added at the end of a struct with struct_size \
          needs the minor version in Cargo.toml, and a new meaning of an old field the ..._VERSION of its struct in \
          src/ffi/types.rs. Then run `HOLEFILL_UPDATE=1 cargo test --test header`.",
     );
 }
 
-/// The shared library beside this test program, if it is there.
+/// The shared library that was built with this test program, if it is there.
 fn shared_library() -> Option<PathBuf> {
     let program = std::env::current_exe().ok()?;
-    let folder = program.parent()?.parent()?;
-    Some(folder.join("libholefill.so")).filter(|path| path.exists())
+    let path = program.parent()?.join("libholefill.so");
+    path.exists().then_some(path)
 }
 
 #[test]
@@ -265,8 +272,8 @@ fn every_exported_function_is_guarded() {
                 "guard(",
                 "guard_free(",
                 "guard_value(",
-                "{ fill(",
-                "{ make_plan(",
+                "{ fill(mesh, Holes::",
+                "{ make_plan(mesh, Holes::",
             ]
             .iter()
             .any(|call| body.contains(call));

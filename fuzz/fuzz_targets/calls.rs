@@ -261,10 +261,37 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
     let element = u32::from(bytes.byte() % 4);
     let name = CString::new(vec![b'a' + bytes.byte() % 26]).unwrap_or_default();
     let e = &raw mut *error;
+    // The vertices of a loop, most of the time of this mesh.
+    let mut chain = [0_u32; 64];
+    // SAFETY: the output describes living memory.
+    let length = unsafe {
+        let mut info: HolefillLoopInfo = std::mem::zeroed();
+        info.struct_size = size_of::<HolefillLoopInfo>() as u32;
+        info.version = HOLEFILL_LOOP_INFO_VERSION;
+        let status = holefill_mesh_loop_info(mesh, id, &mut info, ptr::null_mut());
+        let output = HolefillOutput {
+            data: chain.as_mut_ptr().cast(),
+            count: info.vertex_count.min(64),
+            stride: 0,
+            scalar_type: HOLEFILL_TYPE_U32,
+            reserved: 0,
+        };
+        if status == HOLEFILL_STATUS_OK {
+            holefill_mesh_read_loop(mesh, id, 0, &output, ptr::null_mut());
+        }
+        info.vertex_count.min(64)
+    };
+    let vertices = HolefillInput {
+        data: chain.as_ptr().cast(),
+        count: length,
+        stride: 0,
+        scalar_type: HOLEFILL_TYPE_U32,
+        reserved: 0,
+    };
     let before = state(mesh);
     // SAFETY: every pointer is null, or to as much memory as is said beside it.
     let status = unsafe {
-        match bytes.byte() % 40 {
+        match bytes.byte() % 43 {
             0..4 => {
                 let (points, triangles) = grid(bytes);
                 let view = |data: *const c_void, count: usize, scalar_type| HolefillInput {
@@ -376,6 +403,47 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
                 _ => holefill_parameters_get(parameters, name.as_ptr(), text.as_mut_ptr(), capacity, &mut number, e),
             },
             38 => holefill_report_reason(report, id, text.as_mut_ptr(), capacity, &mut number, e),
+            39 => {
+                let (p, n, c) = (room.view(bytes), other_room.view(bytes), room.view(bytes));
+                let n = if bytes.byte() > 99 { ptr::null() } else { &raw const n };
+                let c = if bytes.byte() > 99 { ptr::null() } else { &raw const c };
+                holefill_mesh_from_points(&p, n, c, ptr::null(), &mut new_mesh, ptr::null_mut(), e)
+            }
+            40 => {
+                let (points, _) = grid(bytes);
+                let p = HolefillInput {
+                    data: points.as_ptr().cast(),
+                    count: points.len() as u64,
+                    stride: 0,
+                    scalar_type: HOLEFILL_TYPE_F64,
+                    reserved: 0,
+                };
+                let (n, c) = match bytes.byte() {
+                    0..100 => (ptr::null(), ptr::null()),
+                    _ => (&raw const p, &raw const p),
+                };
+                let point_options = HolefillPointOptions {
+                    struct_size: size_of::<HolefillPointOptions>() as u32,
+                    version: HOLEFILL_POINT_OPTIONS_VERSION,
+                    radius: if bytes.byte() < 200 { 0.0 } else { bytes.coordinate() },
+                    neighbours: if bytes.byte() < 100 { 0 } else { bytes.number() as u32 },
+                    threads: u32::from(bytes.byte() % 3),
+                    time_budget: if bytes.byte() < 200 { 0.0 } else { bytes.coordinate() },
+                    progress: options.progress,
+                    progress_data: options.progress_data,
+                };
+                holefill_mesh_from_points(&p, n, c, &point_options, &mut new_mesh, ptr::null_mut(), e)
+            }
+            41 => {
+                let from_here = if bytes.byte() > 99 { &raw const vertices } else { ptr::null() };
+                match bytes.byte() % 5 {
+                    0 => holefill_mesh_fill_vertices(mesh, from_here, o, &mut new_report, e),
+                    1 => holefill_mesh_plan_vertices(mesh, from_here, o, &mut new_plan, e),
+                    2 => holefill_mesh_plan_edge(mesh, from, to, o, &mut new_plan, e),
+                    3 => holefill_mesh_plan_loops(mesh, &room.view(bytes), o, &mut new_plan, e),
+                    _ => holefill_mesh_read_loop(mesh, id, 0, &other_room.output(bytes), e),
+                }
+            }
             _ => {
                 let mut method = ptr::null();
                 holefill_report_tried(report, id, from as u32, &mut method, text.as_mut_ptr(), capacity, &mut number, e)

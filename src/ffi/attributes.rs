@@ -73,8 +73,12 @@ fn find(
     Ok((named, attributes))
 }
 
-fn column(columns: &Columns, scalar_type: HolefillType, k: usize) -> Result<ScalarValues, Failure> {
-    let what = "values";
+fn column(
+    columns: &Columns,
+    scalar_type: HolefillType,
+    k: usize,
+    what: &str,
+) -> Result<ScalarValues, Failure> {
     Ok(match scalar_type {
         HOLEFILL_TYPE_I8 => ScalarValues::I8(columns.column(k, what)?),
         HOLEFILL_TYPE_U8 => ScalarValues::U8(columns.column(k, what)?),
@@ -97,6 +101,59 @@ fn type_number(scalar_type: ScalarType) -> HolefillType {
         ScalarType::U32 => HOLEFILL_TYPE_U32,
         ScalarType::F32 => HOLEFILL_TYPE_F32,
         ScalarType::F64 => HOLEFILL_TYPE_F64,
+    }
+}
+
+/// An attribute that was copied from the caller.
+pub(super) struct CopiedAttribute {
+    named: NamedColumns,
+    /// The values of its columns.
+    values: Vec<ScalarValues>,
+}
+
+impl CopiedAttribute {
+    /// Copies the rows of `values`, of which there must be `count`.
+    ///
+    /// # Safety
+    /// `values` is null or describes memory of the caller.
+    pub(super) unsafe fn read(
+        name: &str,
+        components: u32,
+        values: *const HolefillInput,
+        count: usize,
+        what: &str,
+    ) -> Result<Self, Failure> {
+        // SAFETY: the caller's promise.
+        let (rows, scalar_type) = unsafe { Columns::check(values, components as usize, what)? };
+        if rows.count() != count {
+            return Err(invalid(format!(
+                "attribute {name} has {} rows for {count} elements",
+                rows.count()
+            )));
+        }
+        let values: Result<Vec<ScalarValues>, Failure> = (0..components as usize)
+            .map(|k| column(&rows, scalar_type, k, what))
+            .collect();
+        Ok(Self {
+            values: values?,
+            named: NamedColumns {
+                name: name.to_owned(),
+                scalar_type,
+                columns: column_names(name, components),
+            },
+        })
+    }
+
+    /// The attribute, and its columns by name.
+    pub(super) fn into_columns(
+        self,
+    ) -> (
+        NamedColumns,
+        impl Iterator<Item = (String, AttributeValues)>,
+    ) {
+        let names = self.named.columns.clone();
+        let values = self.values.into_iter().map(AttributeValues::Scalars);
+        (self.named, names.into_iter().zip(values))
     }
 }
 
@@ -130,41 +187,25 @@ pub unsafe extern "C" fn holefill_mesh_add_attribute(
                 "an attribute needs a name and 1 to {MOST_COMPONENTS} components"
             )));
         }
-        // SAFETY: the caller's promise.
-        let (columns, scalar_type) =
-            unsafe { Columns::check(values, components as usize, "values")? };
         with_mesh_mut(mesh.id, |object| {
+            let mesh = object.session.mesh();
+            let known = [mesh.vertex_attributes(), mesh.face_attributes()][place];
             let names = column_names(name, components);
-            let counts = {
-                let mesh = object.session.mesh();
-                let attributes = [mesh.vertex_attributes(), mesh.face_attributes()][place];
-                if names.iter().any(|n| attributes.get(n).is_some()) {
-                    return Err(invalid(format!("there is an attribute {name} already")));
-                }
-                attributes.len()
-            };
-            if columns.count() != counts {
-                return Err(invalid(format!(
-                    "attribute {name} has {} rows for {counts} elements",
-                    columns.count()
-                )));
+            if names.iter().any(|n| known.get(n).is_some()) {
+                return Err(invalid(format!("there is an attribute {name} already")));
             }
             // All is copied before anything is added: then nothing can fail.
-            let copied: Result<Vec<ScalarValues>, Failure> = (0..names.len())
-                .map(|k| column(&columns, scalar_type, k))
-                .collect();
-            for (name, values) in names.iter().zip(copied?) {
-                let values = AttributeValues::Scalars(values);
+            // SAFETY: the caller's promise.
+            let copied =
+                unsafe { CopiedAttribute::read(name, components, values, known.len(), "values")? };
+            let (named, columns) = copied.into_columns();
+            for (name, values) in columns {
                 match place {
-                    0 => object.session.add_vertex_attribute(name, values)?,
-                    _ => object.session.add_face_attribute(name, values)?,
+                    0 => object.session.add_vertex_attribute(&name, values)?,
+                    _ => object.session.add_face_attribute(&name, values)?,
                 }
             }
-            object.attributes[place].push(NamedColumns {
-                name: name.to_owned(),
-                scalar_type,
-                columns: names,
-            });
+            object.attributes[place].push(named);
             Ok(HOLEFILL_STATUS_OK)
         })
     })

@@ -51,6 +51,21 @@ impl Callbacks {
         }
     }
 
+    /// A progress callback and no log.
+    ///
+    /// # Safety
+    /// As for [`new`](Self::new).
+    pub(super) unsafe fn of_progress(
+        progress: HolefillProgressCallback,
+        progress_data: *mut c_void,
+    ) -> Self {
+        Self {
+            progress,
+            progress_data,
+            ..Self::none()
+        }
+    }
+
     pub(super) fn has_progress(&self) -> bool {
         self.progress.is_some()
     }
@@ -67,7 +82,7 @@ impl Callbacks {
             holes_total: progress.holes_total as u64,
             seconds: self.start.elapsed().as_secs_f64(),
         };
-        // SAFETY: the promise given to `new`.
+        // SAFETY: the promise given to the constructor.
         match unsafe { callback(&told, self.progress_data) } {
             0 => ControlFlow::Continue(()),
             _ => ControlFlow::Break(()),

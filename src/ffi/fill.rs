@@ -21,7 +21,46 @@ use crate::fill::progress::{Progress, ProgressCallback};
 use crate::fill::report::{FillReport, HoleStatus};
 use crate::fill::session::{FillSession, Target};
 
-/// Which holes a call is about.
+/// Which holes a call is about, as the caller names them.
+pub(super) enum Holes {
+    Loop(u64),
+    Edge(u64, u64),
+    Vertices(*const HolefillInput),
+    Loops(*const HolefillInput),
+    Selected(*const HolefillSelection),
+}
+
+impl Holes {
+    /// Reads what the caller points to and finds it in the mesh. That loops exist is checked here, since it is a
+    /// status of its own.
+    ///
+    /// # Safety
+    /// The pointers are as the exported functions say.
+    pub(super) unsafe fn find(self, session: &FillSession) -> Result<Wish, Failure> {
+        let ids = match self {
+            Self::Loop(id) => vec![index(id, "loop")?],
+            Self::Edge(from, to) => vec![loop_of_edge(session, from, to)?],
+            // SAFETY: the caller's promise.
+            Self::Vertices(vertices) => unsafe { loops_of_vertices(session, vertices)? },
+            // SAFETY: the caller's promise.
+            Self::Loops(loops) => unsafe { read_ids(loops, "loops")? },
+            Self::Selected(selection) => {
+                // SAFETY: the caller's promise.
+                return Ok(Wish::Selected(unsafe { read_selection(selection)? }));
+            }
+        };
+        let count = session.boundary().loops.len();
+        match ids.iter().find(|&&id| id >= count) {
+            Some(id) => Err(Failure::new(
+                HOLEFILL_STATUS_NOT_FOUND,
+                format!("there is no loop {id} among {count}"),
+            )),
+            None => Ok(Wish::Loops(ids)),
+        }
+    }
+}
+
+/// Which holes a call is about, found.
 pub(super) enum Wish {
     Loops(Vec<usize>),
     Selected(Selection),
@@ -32,21 +71,6 @@ impl Wish {
         match self {
             Self::Loops(ids) => Target::Loops(ids),
             Self::Selected(selection) => Target::Selected(selection),
-        }
-    }
-
-    /// Checks that loops chosen by their ids exist, which is a status of its own.
-    pub(super) fn check(&self, session: &FillSession) -> Result<(), Failure> {
-        let Self::Loops(ids) = self else {
-            return Ok(());
-        };
-        let count = session.boundary().loops.len();
-        match ids.iter().find(|&&id| id >= count) {
-            Some(id) => Err(Failure::new(
-                HOLEFILL_STATUS_NOT_FOUND,
-                format!("there is no loop {id} among {count}"),
-            )),
-            None => Ok(()),
         }
     }
 }
@@ -90,24 +114,24 @@ pub(super) unsafe fn hand_out(
     unsafe { write(place, HolefillReport { id }, "report") }
 }
 
-/// Fills what `wish` says of a mesh.
+/// Fills holes of a mesh.
 ///
 /// # Safety
 /// The pointers are as the exported functions say.
 unsafe fn fill(
     mesh: HolefillMesh,
+    holes: Holes,
     options: *const HolefillFillOptions,
     report: *mut HolefillReport,
     error: *mut HolefillError,
-    wish: impl FnOnce(&FillSession) -> Result<Wish, Failure>,
 ) -> HolefillStatus {
     guard(error, || {
         // SAFETY: the caller's promise.
         let (options, callbacks) = unsafe { read_options(options)? };
         let (status, filled) = with_mesh_mut(mesh.id, |object| {
             let session = &mut object.session;
-            let wish = wish(session)?;
-            wish.check(session)?;
+            // SAFETY: the caller's promise.
+            let wish = unsafe { holes.find(session)? };
             let before = session.undo_count();
             let filled = with_callback(options, &callbacks, |options, progress| {
                 session.fill(wish.target(), options, progress)
@@ -143,9 +167,8 @@ pub unsafe extern "C" fn holefill_mesh_fill_loop(
     report: *mut HolefillReport,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    let wish = |_: &FillSession| Ok(Wish::Loops(vec![index(loop_id, "loop")?]));
     // SAFETY: the caller's promise.
-    unsafe { fill(mesh, options, report, error, wish) }
+    unsafe { fill(mesh, Holes::Loop(loop_id), options, report, error) }
 }
 
 /// As `holefill_mesh_fill_loop`, for the loop through the boundary edge from vertex `from` to vertex `to`, as it runs in
@@ -159,9 +182,8 @@ pub unsafe extern "C" fn holefill_mesh_fill_edge(
     report: *mut HolefillReport,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    let wish = |session: &FillSession| Ok(Wish::Loops(vec![loop_of_edge(session, from, to)?]));
     // SAFETY: the caller's promise.
-    unsafe { fill(mesh, options, report, error, wish) }
+    unsafe { fill(mesh, Holes::Edge(from, to), options, report, error) }
 }
 
 /// As `holefill_mesh_fill_loops`, for the loops that the closed chain `vertices` consists of: see
@@ -175,10 +197,7 @@ pub unsafe extern "C" fn holefill_mesh_fill_vertices(
     error: *mut HolefillError,
 ) -> HolefillStatus {
     // SAFETY: the caller's promise.
-    let wish =
-        |session: &FillSession| unsafe { Ok(Wish::Loops(loops_of_vertices(session, vertices)?)) };
-    // SAFETY: the caller's promise.
-    unsafe { fill(mesh, options, report, error, wish) }
+    unsafe { fill(mesh, Holes::Vertices(vertices), options, report, error) }
 }
 
 /// As `holefill_mesh_fill_loop`, for several loops: `loops` has rows of one id, `uint32_t` or `uint64_t`. They are filled
@@ -193,9 +212,7 @@ pub unsafe extern "C" fn holefill_mesh_fill_loops(
     error: *mut HolefillError,
 ) -> HolefillStatus {
     // SAFETY: the caller's promise.
-    let wish = |_: &FillSession| unsafe { Ok(Wish::Loops(read_ids(loops, "loops")?)) };
-    // SAFETY: the caller's promise.
-    unsafe { fill(mesh, options, report, error, wish) }
+    unsafe { fill(mesh, Holes::Loops(loops), options, report, error) }
 }
 
 /// As `holefill_mesh_fill_loops`, for all open loops that the rules choose; with `selection` null for all open loops. The
@@ -209,9 +226,7 @@ pub unsafe extern "C" fn holefill_mesh_fill_selected(
     error: *mut HolefillError,
 ) -> HolefillStatus {
     // SAFETY: the caller's promise.
-    let wish = |_: &FillSession| unsafe { Ok(Wish::Selected(read_selection(selection)?)) };
-    // SAFETY: the caller's promise.
-    unsafe { fill(mesh, options, report, error, wish) }
+    unsafe { fill(mesh, Holes::Selected(selection), options, report, error) }
 }
 
 /// Takes the last fill or apply back that appended something: its vertices, triangles and attribute values are removed,

@@ -2,7 +2,7 @@
 
 use super::guard::{Failure, guard};
 use super::memory::{
-    Sink, Wanted, blank, null, read_indices, read_optional_indices, read_struct, write, write_ids,
+    blank, null, read_indices, read_optional_indices, read_struct, write, write_ids, write_indices,
     write_struct,
 };
 use super::mesh::MeshObject;
@@ -13,9 +13,9 @@ use super::status::{
 };
 use super::types::{
     HOLEFILL_CLASS_ISLAND, HOLEFILL_CLASS_NOT_ORIENTED, HOLEFILL_CLASS_OPEN_CHAIN,
-    HOLEFILL_CLASS_OUTER_RIM, HOLEFILL_CLASS_SIMPLE, HOLEFILL_CLASS_TOUCHING, HOLEFILL_TYPE_U32,
-    HOLEFILL_TYPE_U64, HolefillClass, HolefillError, HolefillInput, HolefillLoopInfo, HolefillMesh,
-    HolefillOutput, HolefillSelection,
+    HOLEFILL_CLASS_OUTER_RIM, HOLEFILL_CLASS_SIMPLE, HOLEFILL_CLASS_TOUCHING, HolefillClass,
+    HolefillError, HolefillInput, HolefillLoopInfo, HolefillMesh, HolefillOutput,
+    HolefillSelection,
 };
 use crate::boundary::classify::LoopClass;
 use crate::boundary::loops::BoundaryLoop;
@@ -112,16 +112,9 @@ pub unsafe extern "C" fn holefill_mesh_read_loop(
 ) -> HolefillStatus {
     guard(error, || {
         with_mesh(mesh.id, |object| {
-            let vertices = &find_loop(object, loop_id)?.vertices;
-            let wanted = Wanted {
-                first,
-                total: vertices.len(),
-                width: 1,
-                allowed: &[HOLEFILL_TYPE_U32, HOLEFILL_TYPE_U64],
-            };
+            let (vertices, _) = find_loop(object, loop_id)?.vertices.as_chunks::<1>();
             // SAFETY: the caller's promise.
-            let sink = unsafe { Sink::check(output, &wanted)? };
-            sink.write_indices(|i| [vertices[i]]);
+            unsafe { write_indices(output, first, vertices)? };
             Ok(HOLEFILL_STATUS_OK)
         })
     })

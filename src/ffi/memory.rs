@@ -606,35 +606,6 @@ impl Sink {
         })
     }
 
-    /// Writes rows of coordinates; `row` is asked for the rows of the range.
-    pub(super) fn write_points(&self, row: impl Fn(usize) -> [f64; 3]) {
-        for (i, place) in self.range.clone().enumerate() {
-            for (k, value) in row(place).into_iter().enumerate() {
-                self.write_number(i, k, value);
-            }
-        }
-    }
-
-    /// Writes number `k` of the `i`-th row as `float` or `double`.
-    pub(super) fn write_number(&self, i: usize, k: usize, value: f64) {
-        match self.scalar_type {
-            HOLEFILL_TYPE_F32 => self.put(i, k, value as f32),
-            _ => self.put(i, k, value),
-        }
-    }
-
-    /// Writes rows of indices.
-    pub(super) fn write_indices<const N: usize>(&self, row: impl Fn(usize) -> [u32; N]) {
-        for (i, place) in self.range.clone().enumerate() {
-            for (k, value) in row(place).into_iter().enumerate() {
-                match self.scalar_type {
-                    HOLEFILL_TYPE_U32 => self.put(i, k, value),
-                    _ => self.put(i, k, u64::from(value)),
-                }
-            }
-        }
-    }
-
     /// Writes number `k` of the `i`-th row as it is; it must have the type of the rows.
     pub(super) fn put<T: Copy>(&self, i: usize, k: usize, value: T) {
         debug_assert_eq!(size_of::<T>(), self.rows.width);
@@ -650,6 +621,62 @@ impl Sink {
     pub(super) fn is_of(&self, scalar_type: HolefillType) -> bool {
         self.scalar_type == scalar_type
     }
+}
+
+/// Writes the points from `first` on, as many as the caller wants, as `float` or `double`.
+///
+/// # Safety
+/// As [`Sink::check`].
+pub(super) unsafe fn write_points(
+    output: *const HolefillOutput,
+    first: u64,
+    points: &[[f64; 3]],
+) -> Result<(), Failure> {
+    let wanted = Wanted {
+        first,
+        total: points.len(),
+        width: 3,
+        allowed: &[HOLEFILL_TYPE_F32, HOLEFILL_TYPE_F64],
+    };
+    // SAFETY: the caller's promise.
+    let sink = unsafe { Sink::check(output, &wanted)? };
+    for (i, point) in points[sink.range.clone()].iter().enumerate() {
+        for (k, &value) in point.iter().enumerate() {
+            match sink.scalar_type {
+                HOLEFILL_TYPE_F32 => sink.put(i, k, value as f32),
+                _ => sink.put(i, k, value),
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Writes the rows of indices from `first` on, as many as the caller wants, with 32 or 64 bits.
+///
+/// # Safety
+/// As [`Sink::check`].
+pub(super) unsafe fn write_indices<const N: usize>(
+    output: *const HolefillOutput,
+    first: u64,
+    rows: &[[u32; N]],
+) -> Result<(), Failure> {
+    let wanted = Wanted {
+        first,
+        total: rows.len(),
+        width: N,
+        allowed: &[HOLEFILL_TYPE_U32, HOLEFILL_TYPE_U64],
+    };
+    // SAFETY: the caller's promise.
+    let sink = unsafe { Sink::check(output, &wanted)? };
+    for (i, row) in rows[sink.range.clone()].iter().enumerate() {
+        for (k, &value) in row.iter().enumerate() {
+            match sink.scalar_type {
+                HOLEFILL_TYPE_U32 => sink.put(i, k, value),
+                _ => sink.put(i, k, u64::from(value)),
+            }
+        }
+    }
+    Ok(())
 }
 
 const _: () = {

@@ -3,7 +3,8 @@
 use super::attributes::NamedColumns;
 use super::guard::{Failure, guard, guard_free};
 use super::memory::{
-    Sink, Wanted, blank, invalid, null, read_indices, read_points, write, write_struct,
+    blank, invalid, null, read_indices, read_points, write, write_indices, write_points,
+    write_struct,
 };
 use super::objects::{MESH, Object, free, keep, with_mesh};
 use super::status::{
@@ -11,8 +12,7 @@ use super::status::{
     HolefillStatus,
 };
 use super::types::{
-    HOLEFILL_TYPE_F32, HOLEFILL_TYPE_F64, HOLEFILL_TYPE_U32, HOLEFILL_TYPE_U64, HolefillDefects,
-    HolefillError, HolefillInput, HolefillMesh, HolefillMeshInfo, HolefillOutput,
+    HolefillDefects, HolefillError, HolefillInput, HolefillMesh, HolefillMeshInfo, HolefillOutput,
 };
 use crate::fill::session::FillSession;
 use crate::mesh::trimesh::TriMesh;
@@ -46,6 +46,52 @@ fn check_finite(points: &[[f64; 3]], what: &str) -> Result<(), Failure> {
         )),
         None => Ok(()),
     }
+}
+
+/// Copies points that must be finite.
+///
+/// # Safety
+/// `input` is null or describes memory of the caller.
+pub(super) unsafe fn read_finite(
+    input: *const HolefillInput,
+    what: &str,
+) -> Result<Vec<[f64; 3]>, Failure> {
+    // SAFETY: the caller's promise.
+    let points = unsafe { read_points(input, what)? };
+    check_finite(&points, what)?;
+    Ok(points)
+}
+
+/// As [`read_finite`]; nothing for a null pointer.
+///
+/// # Safety
+/// As [`read_finite`].
+pub(super) unsafe fn read_optional(
+    input: *const HolefillInput,
+    what: &str,
+) -> Result<Option<Vec<[f64; 3]>>, Failure> {
+    if input.is_null() {
+        return Ok(None);
+    }
+    // SAFETY: the caller's promise.
+    unsafe { read_finite(input, what) }.map(Some)
+}
+
+/// Keeps a mesh that was made and tells its handle.
+///
+/// # Safety
+/// `place` is null or points to a handle.
+pub(super) unsafe fn hand_out(
+    object: MeshObject,
+    place: *mut HolefillMesh,
+) -> Result<HolefillStatus, Failure> {
+    if place.is_null() {
+        return Err(null("mesh"));
+    }
+    let id = keep(Object::mesh(object))?;
+    // SAFETY: not null, and the caller's promise.
+    unsafe { write(place, HolefillMesh { id }, "mesh")? };
+    Ok(HOLEFILL_STATUS_OK)
 }
 
 fn check_indices(triangles: &[[u32; 3]], vertex_count: usize) -> Result<(), Failure> {
@@ -99,11 +145,8 @@ pub unsafe extern "C" fn holefill_mesh_from_arrays(
                 .and_then(|faces| check_indices(&faces, vertex_count));
             found.err().unwrap_or_else(|| e.into())
         })?;
-        let session = FillSession::new(built);
-        let id = keep(Object::mesh(MeshObject::new(session)))?;
-        // SAFETY: not null, and the caller's promise.
-        unsafe { write(mesh, HolefillMesh { id }, "mesh")? };
-        Ok(HOLEFILL_STATUS_OK)
+        // SAFETY: as above.
+        unsafe { hand_out(MeshObject::new(FillSession::new(built)), mesh) }
     })
 }
 
@@ -132,21 +175,12 @@ pub unsafe extern "C" fn holefill_mesh_from_polyline(
             return Err(null("mesh"));
         }
         // SAFETY: the caller's promise.
-        let points = unsafe { read_points(points, "points")? };
-        check_finite(&points, "points")?;
-        let normals = if normals.is_null() {
-            None
-        } else {
-            // SAFETY: as above.
-            let normals = unsafe { read_points(normals, "normals")? };
-            check_finite(&normals, "normals")?;
-            Some(normals)
-        };
+        let points = unsafe { read_finite(points, "points")? };
+        // SAFETY: as above.
+        let normals = unsafe { read_optional(normals, "normals")? };
         let session = FillSession::from_polyline(points, normals.as_deref())?;
-        let id = keep(Object::mesh(MeshObject::new(session)))?;
-        // SAFETY: not null, and the caller's promise.
-        unsafe { write(mesh, HolefillMesh { id }, "mesh")? };
-        Ok(HOLEFILL_STATUS_OK)
+        // SAFETY: as above.
+        unsafe { hand_out(MeshObject::new(session), mesh) }
     })
 }
 
@@ -238,15 +272,8 @@ pub unsafe extern "C" fn holefill_mesh_read_positions(
     guard(error, || {
         with_mesh(mesh.id, |object| {
             let positions = object.session.mesh().positions();
-            let wanted = Wanted {
-                first,
-                total: positions.len(),
-                width: 3,
-                allowed: &[HOLEFILL_TYPE_F32, HOLEFILL_TYPE_F64],
-            };
             // SAFETY: the caller's promise.
-            let sink = unsafe { Sink::check(output, &wanted)? };
-            sink.write_points(|i| positions[i]);
+            unsafe { write_points(output, first, positions)? };
             Ok(HOLEFILL_STATUS_OK)
         })
     })
@@ -266,15 +293,8 @@ pub unsafe extern "C" fn holefill_mesh_read_triangles(
     guard(error, || {
         with_mesh(mesh.id, |object| {
             let triangles = object.session.mesh().triangles();
-            let wanted = Wanted {
-                first,
-                total: triangles.len(),
-                width: 3,
-                allowed: &[HOLEFILL_TYPE_U32, HOLEFILL_TYPE_U64],
-            };
             // SAFETY: the caller's promise.
-            let sink = unsafe { Sink::check(output, &wanted)? };
-            sink.write_indices(|i| triangles[i]);
+            unsafe { write_indices(output, first, triangles)? };
             Ok(HOLEFILL_STATUS_OK)
         })
     })

@@ -37,13 +37,7 @@ pub(super) unsafe fn read_options(
         read.method = method.parse()?;
     }
     read.seed = given.seed;
-    if given.threads > MOST_THREADS {
-        return Err(Failure::new(
-            HOLEFILL_STATUS_LIMIT,
-            format!("at most {MOST_THREADS} threads, not {}", given.threads),
-        ));
-    }
-    read.threads = given.threads as usize;
+    read.threads = check_threads(given.threads)?;
     // The parameters' own ranges hold for the fields too.
     for (name, value, is_given) in [
         (
@@ -68,6 +62,17 @@ pub(super) unsafe fn read_options(
     }
     // SAFETY: the caller's promise is that both can be called during the call.
     Ok((read, unsafe { Callbacks::new(&given) }))
+}
+
+/// How many threads a caller asks for.
+pub(super) fn check_threads(threads: u32) -> Result<usize, Failure> {
+    if threads > MOST_THREADS {
+        return Err(Failure::new(
+            HOLEFILL_STATUS_LIMIT,
+            format!("at most {MOST_THREADS} threads, not {threads}"),
+        ));
+    }
+    Ok(threads as usize)
 }
 
 /// Makes `options` the defaults. `struct_size` is `sizeof(HolefillFillOptions)` of the caller.

@@ -1,22 +1,19 @@
 //! Planning patches without changing the mesh, reading them, and applying them.
 
-use super::fill::{Wish, hand_out, status_of, with_callback};
+use super::fill::{Holes, hand_out, status_of, with_callback};
 use super::guard::{Failure, guard, guard_free};
-use super::loops::{loop_of_edge, loops_of_vertices, read_selection};
-use super::memory::{Sink, Wanted, blank, null, read_ids, write, write_struct};
-use super::mesh::index;
+use super::memory::{blank, null, write, write_indices, write_points, write_struct};
 use super::objects::{Object, PLAN, free, keep, with_mesh, with_mesh_mut, with_plan};
 use super::options::read_options;
 use super::status::{
     HOLEFILL_STATUS_NOT_FOUND, HOLEFILL_STATUS_OK, HOLEFILL_STATUS_STALE_PLAN, HolefillStatus,
 };
 use super::types::{
-    HOLEFILL_TYPE_F32, HOLEFILL_TYPE_F64, HOLEFILL_TYPE_U32, HOLEFILL_TYPE_U64, HolefillError,
-    HolefillFillOptions, HolefillInput, HolefillMesh, HolefillOutput, HolefillPatchInfo,
-    HolefillPlan, HolefillReport, HolefillSelection,
+    HolefillError, HolefillFillOptions, HolefillInput, HolefillMesh, HolefillOutput,
+    HolefillPatchInfo, HolefillPlan, HolefillReport, HolefillSelection,
 };
 use crate::error::ErrorKind;
-use crate::fill::session::{FillPlan, FillSession, PlannedPatch};
+use crate::fill::session::{FillPlan, PlannedPatch};
 use std::sync::OnceLock;
 
 /// A plan that C has a handle of.
@@ -42,16 +39,16 @@ impl PlanObject {
     }
 }
 
-/// Plans what `wish` says of a mesh.
+/// Plans holes of a mesh.
 ///
 /// # Safety
 /// The pointers are as the exported functions say.
 unsafe fn make_plan(
     mesh: HolefillMesh,
+    holes: Holes,
     options: *const HolefillFillOptions,
     plan: *mut HolefillPlan,
     error: *mut HolefillError,
-    wish: impl FnOnce(&FillSession) -> Result<Wish, Failure>,
 ) -> HolefillStatus {
     guard(error, || {
         if plan.is_null() {
@@ -61,8 +58,8 @@ unsafe fn make_plan(
         let (options, callbacks) = unsafe { read_options(options)? };
         let planned = with_mesh(mesh.id, |object| {
             let session = &object.session;
-            let wish = wish(session)?;
-            wish.check(session)?;
+            // SAFETY: the caller's promise.
+            let wish = unsafe { holes.find(session)? };
             with_callback(options, &callbacks, |options, progress| {
                 session.plan(wish.target(), options, progress)
             })
@@ -94,9 +91,8 @@ pub unsafe extern "C" fn holefill_mesh_plan_loop(
     plan: *mut HolefillPlan,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    let wish = |_: &FillSession| Ok(Wish::Loops(vec![index(loop_id, "loop")?]));
     // SAFETY: the caller's promise.
-    unsafe { make_plan(mesh, options, plan, error, wish) }
+    unsafe { make_plan(mesh, Holes::Loop(loop_id), options, plan, error) }
 }
 
 /// As `holefill_mesh_plan_loop`, for the loop through the boundary edge from vertex `from` to vertex `to`, as it runs in
@@ -110,9 +106,8 @@ pub unsafe extern "C" fn holefill_mesh_plan_edge(
     plan: *mut HolefillPlan,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    let wish = |session: &FillSession| Ok(Wish::Loops(vec![loop_of_edge(session, from, to)?]));
     // SAFETY: the caller's promise.
-    unsafe { make_plan(mesh, options, plan, error, wish) }
+    unsafe { make_plan(mesh, Holes::Edge(from, to), options, plan, error) }
 }
 
 /// As `holefill_mesh_plan_loops`, for the loops that the closed chain `vertices` consists of: see
@@ -126,10 +121,7 @@ pub unsafe extern "C" fn holefill_mesh_plan_vertices(
     error: *mut HolefillError,
 ) -> HolefillStatus {
     // SAFETY: the caller's promise.
-    let wish =
-        |session: &FillSession| unsafe { Ok(Wish::Loops(loops_of_vertices(session, vertices)?)) };
-    // SAFETY: the caller's promise.
-    unsafe { make_plan(mesh, options, plan, error, wish) }
+    unsafe { make_plan(mesh, Holes::Vertices(vertices), options, plan, error) }
 }
 
 /// As `holefill_mesh_plan_loop`, for several loops: `loops` has rows of one id, `uint32_t` or `uint64_t`. Each patch is
@@ -144,9 +136,7 @@ pub unsafe extern "C" fn holefill_mesh_plan_loops(
     error: *mut HolefillError,
 ) -> HolefillStatus {
     // SAFETY: the caller's promise.
-    let wish = |_: &FillSession| unsafe { Ok(Wish::Loops(read_ids(loops, "loops")?)) };
-    // SAFETY: the caller's promise.
-    unsafe { make_plan(mesh, options, plan, error, wish) }
+    unsafe { make_plan(mesh, Holes::Loops(loops), options, plan, error) }
 }
 
 /// As `holefill_mesh_plan_loops`, for all open loops that the rules choose; with `selection` null for all open loops.
@@ -159,9 +149,7 @@ pub unsafe extern "C" fn holefill_mesh_plan_selected(
     error: *mut HolefillError,
 ) -> HolefillStatus {
     // SAFETY: the caller's promise.
-    let wish = |_: &FillSession| unsafe { Ok(Wish::Selected(read_selection(selection)?)) };
-    // SAFETY: the caller's promise.
-    unsafe { make_plan(mesh, options, plan, error, wish) }
+    unsafe { make_plan(mesh, Holes::Selected(selection), options, plan, error) }
 }
 
 /// Appends the patches of a plan to its mesh, in the order of the loops. Patches are checked against each other and
@@ -273,15 +261,8 @@ pub unsafe extern "C" fn holefill_plan_read_positions(
     guard(error, || {
         with_plan(plan.id, |object| {
             let vertices = &object.patch(loop_id)?.vertices;
-            let wanted = Wanted {
-                first,
-                total: vertices.len(),
-                width: 3,
-                allowed: &[HOLEFILL_TYPE_F32, HOLEFILL_TYPE_F64],
-            };
             // SAFETY: the caller's promise.
-            let sink = unsafe { Sink::check(output, &wanted)? };
-            sink.write_points(|i| vertices[i]);
+            unsafe { write_points(output, first, vertices)? };
             Ok(HOLEFILL_STATUS_OK)
         })
     })
@@ -303,15 +284,8 @@ pub unsafe extern "C" fn holefill_plan_read_triangles(
     guard(error, || {
         with_plan(plan.id, |object| {
             let triangles = &object.patch(loop_id)?.triangles;
-            let wanted = Wanted {
-                first,
-                total: triangles.len(),
-                width: 3,
-                allowed: &[HOLEFILL_TYPE_U32, HOLEFILL_TYPE_U64],
-            };
             // SAFETY: the caller's promise.
-            let sink = unsafe { Sink::check(output, &wanted)? };
-            sink.write_indices(|i| triangles[i]);
+            unsafe { write_indices(output, first, triangles)? };
             Ok(HOLEFILL_STATUS_OK)
         })
     })

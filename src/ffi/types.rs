@@ -328,6 +328,59 @@ pub struct HolefillFillOptions {
     pub log_data: *mut c_void,
 }
 
+/// The version of `HolefillPointOptions`.
+pub const HOLEFILL_POINT_OPTIONS_VERSION: u32 = 1;
+/// How a mesh is made from points. All zero but the first two fields is the default, and so is a null pointer in the
+/// place of the struct.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct HolefillPointOptions {
+    /// `sizeof(HolefillPointOptions)`
+    pub struct_size: u32,
+    /// `HOLEFILL_POINT_OPTIONS_VERSION`
+    pub version: u32,
+    /// The largest radius of the circle through the corners of a triangle, in units of the positions: a hole that such a
+    /// circle passes through stays open. 0 takes three times the median of the neighbourhood.
+    pub radius: f64,
+    /// How many of the nearest points each point chooses its triangles from, 6 to 200; 0 is 24.
+    pub neighbours: u32,
+    /// Threads that work, at most 1024; 0 is as many as there are processors. The result is the same for any number.
+    pub threads: u32,
+    /// Seconds that the call may take; 0 is no limit. When they run out the status is `HOLEFILL_STATUS_LIMIT`.
+    pub time_budget: f64,
+    /// Asked about every 10 ms whether to go on, with 0 of 0 holes; may be null.
+    pub progress: HolefillProgressCallback,
+    /// Handed to `progress`.
+    pub progress_data: *mut c_void,
+}
+
+/// The version of `HolefillPointSummary`.
+pub const HOLEFILL_POINT_SUMMARY_VERSION: u32 = 1;
+/// What became of points that a mesh was made from.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct HolefillPointSummary {
+    /// `sizeof(HolefillPointSummary)`
+    pub struct_size: u32,
+    /// `HOLEFILL_POINT_SUMMARY_VERSION`
+    pub version: u32,
+    /// Points that a triangle uses.
+    pub used: u64,
+    /// Points at the place of an earlier one; no triangle uses them.
+    pub duplicates: u64,
+    /// Other points that no triangle uses.
+    pub unused: u64,
+    /// Triangles.
+    pub triangle_count: u64,
+    /// Pieces of surface that share no vertex.
+    pub piece_count: u64,
+    /// Normals that were not given, and were estimated.
+    pub estimated_normals: u64,
+    /// The largest radius of a triangle's circle that was allowed, in units of the positions: the smallest, the median and
+    /// the largest over the points.
+    pub radius: [f64; 3],
+}
+
 /// The version of `HolefillPatchInfo`.
 pub const HOLEFILL_PATCH_INFO_VERSION: u32 = 1;
 /// The size of a planned patch.
@@ -467,6 +520,8 @@ versioned!(
     HolefillLoopInfo = HOLEFILL_LOOP_INFO_VERSION,
     HolefillSelection = HOLEFILL_SELECTION_VERSION,
     HolefillFillOptions = HOLEFILL_FILL_OPTIONS_VERSION,
+    HolefillPointOptions = HOLEFILL_POINT_OPTIONS_VERSION,
+    HolefillPointSummary = HOLEFILL_POINT_SUMMARY_VERSION,
     HolefillPatchInfo = HOLEFILL_PATCH_INFO_VERSION,
     HolefillHole = HOLEFILL_HOLE_VERSION,
     HolefillSummary = HOLEFILL_SUMMARY_VERSION,

@@ -29,7 +29,7 @@ const CANCELLED: u8 = 1;
 const OUT_OF_TIME: u8 = 2;
 
 /// Counts finished holes, tells the caller, and remembers why the work has to stop.
-pub(super) struct Watch<'a> {
+pub(crate) struct Watch<'a> {
     start: Instant,
     time_budget: Option<f64>,
     callback: Option<ProgressCallback<'a>>,
@@ -41,7 +41,7 @@ pub(super) struct Watch<'a> {
 
 impl<'a> Watch<'a> {
     /// `time_budget` is in seconds from now.
-    pub(super) fn new(
+    pub(crate) fn new(
         holes_total: usize,
         time_budget: Option<f64>,
         callback: Option<ProgressCallback<'a>>,
@@ -66,7 +66,7 @@ impl<'a> Watch<'a> {
     }
 
     /// Whether to stop. Asks the clock, and from time to time the caller.
-    pub(super) fn is_interrupted(&self) -> bool {
+    pub(crate) fn is_interrupted(&self) -> bool {
         if self.stop.load(Ordering::Relaxed) != GO_ON {
             return true;
         }
@@ -127,7 +127,7 @@ impl<'a> Watch<'a> {
     }
 
     /// Algorithms that are interrupted say that they were cancelled; when it was the time that ran out, this says so.
-    pub(super) fn explain(&self, error: Error) -> Error {
+    pub(crate) fn explain(&self, error: Error) -> Error {
         match (error.kind(), self.time_budget) {
             (ErrorKind::Cancelled, Some(budget))
                 if self.stop.load(Ordering::Relaxed) == OUT_OF_TIME =>

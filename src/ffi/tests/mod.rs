@@ -5,12 +5,14 @@ mod cancel;
 mod cost;
 mod misuse;
 mod nulls;
+mod points;
+mod reach;
 mod sessions;
 mod threads;
 
 use super::*;
 use crate::fixtures::{self, Arrays};
-use std::ffi::{CStr, c_char, c_void};
+use std::ffi::{CStr, CString, c_char, c_void};
 use std::ptr;
 
 /// A mesh of C, freed at the end.

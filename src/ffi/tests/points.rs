@@ -1,0 +1,331 @@
+//! Meshes from points through C.
+
+use super::*;
+use crate::reconstruct::{PointCloud, PointOptions, mesh_from_points};
+
+/// The points of a sphere with two holes.
+fn cloud() -> Vec<[f64; 3]> {
+    let arrays = holed();
+    let mut is_used = vec![false; arrays.positions.len()];
+    for &v in arrays.triangles.iter().flatten() {
+        is_used[v as usize] = true;
+    }
+    let used = arrays
+        .positions
+        .iter()
+        .zip(is_used)
+        .filter(|(_, used)| *used);
+    used.map(|(p, _)| *p).collect()
+}
+
+/// What a call is given, and what it hands out.
+#[derive(Clone, Copy, Default)]
+struct Given {
+    normals: Option<HolefillInput>,
+    colors: Option<HolefillInput>,
+    options: Option<HolefillPointOptions>,
+}
+
+fn or_null<T>(value: &Option<T>) -> *const T {
+    value.as_ref().map_or(ptr::null(), ptr::from_ref)
+}
+
+/// The status, the mesh, what became of the points, and the message of a failure.
+fn make(
+    points: &HolefillInput,
+    given: &Given,
+) -> (HolefillStatus, Owned, HolefillPointSummary, String) {
+    let mut mesh = HolefillMesh { id: 77 };
+    let mut summary = memory::blank::<HolefillPointSummary>();
+    let mut error = HolefillError::default();
+    // SAFETY: all pointers are null or to living values.
+    let status = unsafe {
+        holefill_mesh_from_points(
+            points,
+            or_null(&given.normals),
+            or_null(&given.colors),
+            or_null(&given.options),
+            &mut mesh,
+            &mut summary,
+            &mut error,
+        )
+    };
+    if status == HOLEFILL_STATUS_OK {
+        return (status, Owned(mesh), summary, String::new());
+    }
+    assert_eq!(mesh.id, 77, "an output is written only on success");
+    assert_eq!(summary.triangle_count, 0);
+    let text = message(error);
+    holefill_error_free(error);
+    assert!(!text.is_empty());
+    (status, Owned(HolefillMesh::default()), summary, text)
+}
+
+fn point_options() -> HolefillPointOptions {
+    HolefillPointOptions {
+        threads: 1,
+        ..memory::blank()
+    }
+}
+
+fn refused(points: &HolefillInput, given: &Given) -> HolefillStatus {
+    make(points, given).0
+}
+
+#[test]
+fn a_mesh_from_points_is_that_of_the_rust_call() {
+    let points = cloud();
+    let (expected, report) = mesh_from_points(
+        PointCloud::new(points.clone()),
+        &PointOptions::default(),
+        &|| false,
+    )
+    .unwrap();
+    let view = rows(&points, HOLEFILL_TYPE_F64);
+    for threads in [0, 1, 2] {
+        let options = HolefillPointOptions {
+            threads,
+            ..point_options()
+        };
+        let given = Given {
+            options: Some(options),
+            ..Given::default()
+        };
+        let (status, mesh, summary, _) = make(&view, &given);
+        assert_eq!(status, HOLEFILL_STATUS_OK);
+        assert_eq!(positions(mesh.0), points);
+        assert_eq!(triangles(mesh.0), expected.triangles());
+        assert_eq!(summary.used as usize, report.used);
+        assert_eq!(summary.triangle_count as usize, report.triangles);
+        assert_eq!(summary.piece_count as usize, report.pieces);
+        assert_eq!(summary.estimated_normals as usize, points.len());
+        assert_eq!(summary.radius, report.radius);
+        assert_eq!(loop_count(mesh.0), 2);
+        assert_eq!(fill_all(mesh.0, &super::options()), HOLEFILL_STATUS_OK);
+    }
+}
+
+#[test]
+fn points_may_stand_anywhere_and_duplicates_stay_as_vertices() {
+    #[repr(C, packed)]
+    #[derive(Clone, Copy)]
+    struct Sample {
+        intensity: u8,
+        point: [f32; 3],
+        normal: [f64; 3],
+        color: [u8; 4],
+    }
+    let mut samples: Vec<Sample> = cloud()
+        .iter()
+        .enumerate()
+        .map(|(i, p)| Sample {
+            intensity: 9,
+            point: p.map(|c| c as f32),
+            // Of a sphere, turned inward: so must the triangles be.
+            normal: p.map(|c| -3.0 * c),
+            color: [i as u8, 2, 3, 4],
+        })
+        .collect();
+    samples.push(samples[0]);
+    samples[1].normal = [0.0; 3];
+    let start: *const u8 = samples.as_ptr().cast();
+    let view = |offset: usize, scalar_type| HolefillInput {
+        data: start.wrapping_add(offset).cast(),
+        count: samples.len() as u64,
+        stride: size_of::<Sample>() as u64,
+        scalar_type,
+        reserved: 0,
+    };
+    let given = Given {
+        normals: Some(view(13, HOLEFILL_TYPE_F64)),
+        colors: Some(view(37, HOLEFILL_TYPE_U8)),
+        options: None,
+    };
+    let (status, mesh, summary, _) = make(&view(1, HOLEFILL_TYPE_F32), &given);
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    assert_eq!((summary.duplicates, summary.estimated_normals), (1, 1));
+    let (positions, triangles) = (positions(mesh.0), triangles(mesh.0));
+    assert_eq!(positions.len(), samples.len());
+    let copied = positions.iter().zip(&samples);
+    assert!(
+        copied
+            .into_iter()
+            .all(|(p, s)| *p == { s.point }.map(f64::from))
+    );
+    for t in &triangles {
+        let [a, b, c] = t.map(|v| crate::math::Vec3::from(positions[v as usize]));
+        assert!(
+            (b - a).cross(&(c - a)).dot(&a) < 0.0,
+            "triangles face inward"
+        );
+    }
+    let mut colors = vec![[0_u8; 3]; samples.len()];
+    let output = place(&mut colors, HOLEFILL_TYPE_U8);
+    // SAFETY: the output describes living memory.
+    let status = unsafe { holefill_mesh_read_attribute(mesh.0, 1, 0, 0, &output, nothing()) };
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    let kept = colors.iter().zip(&samples);
+    assert!(kept.into_iter().all(|(c, s)| c[..] == { s.color }[..3]));
+}
+
+#[test]
+fn points_that_make_no_mesh_are_refused() {
+    let good = cloud();
+    let whole = rows(&good, HOLEFILL_TYPE_F64);
+    let given = Given::default();
+    let line: Vec<[f64; 3]> = (0..30).map(|i| [f64::from(i), 0.0, 0.0]).collect();
+    let same = vec![[1.0, 2.0, 3.0]; 30];
+    for few in [&[][..], &good[..1], &good[..3], &line, &same] {
+        let (status, .., text) = make(&rows(few, HOLEFILL_TYPE_F64), &given);
+        assert_eq!(status, HOLEFILL_STATUS_INVALID_ARGUMENT, "{text}");
+    }
+    for bad in [f64::NAN, f64::INFINITY] {
+        let mut points = good.clone();
+        points[5][1] = bad;
+        let view = rows(&points, HOLEFILL_TYPE_F64);
+        let (status, .., text) = make(&view, &given);
+        assert_eq!(status, HOLEFILL_STATUS_NOT_FINITE);
+        assert!(text.contains("row 5 of points"), "{text}");
+        let normals = Given {
+            normals: Some(view),
+            ..given
+        };
+        assert_eq!(refused(&whole, &normals), HOLEFILL_STATUS_NOT_FINITE);
+        // Colors are data that is carried on, whatever it is.
+        let colors = Given {
+            colors: Some(view),
+            ..given
+        };
+        assert_eq!(refused(&whole, &colors), HOLEFILL_STATUS_OK);
+    }
+    let shorter = HolefillInput {
+        count: whole.count - 1,
+        ..whole
+    };
+    let huge = [u64::MAX, u64::MAX / 2, 1 << 60];
+    let views = |spoil: &dyn Fn(HolefillInput) -> HolefillInput| {
+        let spoiled = Some(spoil(whole));
+        [
+            refused(&spoil(whole), &given),
+            refused(
+                &whole,
+                &Given {
+                    normals: spoiled,
+                    ..given
+                },
+            ),
+            refused(
+                &whole,
+                &Given {
+                    colors: spoiled,
+                    ..given
+                },
+            ),
+        ]
+    };
+    let shorter = views(&|_| shorter);
+    assert_eq!(shorter[1..], [HOLEFILL_STATUS_INVALID_ARGUMENT; 2]);
+    for huge in huge {
+        let found = views(&|view| HolefillInput {
+            count: huge,
+            ..view
+        });
+        assert_eq!(found, [HOLEFILL_STATUS_OVERFLOW; 3], "{huge}");
+        let found = views(&|view| HolefillInput {
+            stride: huge,
+            ..view
+        });
+        assert_eq!(found, [HOLEFILL_STATUS_OVERFLOW; 3], "{huge}");
+    }
+    let found = views(&|view| HolefillInput { stride: 23, ..view });
+    assert_eq!(found, [HOLEFILL_STATUS_INVALID_ARGUMENT; 3]);
+    let found = views(&|view| HolefillInput {
+        reserved: 1,
+        ..view
+    });
+    assert_eq!(found, [HOLEFILL_STATUS_INVALID_STRUCT; 3]);
+    let found = views(&|view| HolefillInput {
+        data: ptr::null(),
+        ..view
+    });
+    assert_eq!(found, [HOLEFILL_STATUS_NULL_POINTER; 3]);
+    let found = views(&|view| HolefillInput {
+        scalar_type: HOLEFILL_TYPE_U64,
+        ..view
+    });
+    assert_eq!(found, [HOLEFILL_STATUS_INVALID_ARGUMENT; 3]);
+}
+
+#[test]
+fn options_for_points_are_checked() {
+    let points = cloud();
+    let view = rows(&points, HOLEFILL_TYPE_F64);
+    let status = |change: &dyn Fn(&mut HolefillPointOptions)| {
+        let mut options = point_options();
+        change(&mut options);
+        let given = Given {
+            options: Some(options),
+            ..Given::default()
+        };
+        refused(&view, &given)
+    };
+    assert_eq!(status(&|_| {}), HOLEFILL_STATUS_OK);
+    for size in [0, 8, size_of::<HolefillPointOptions>() as u32 - 1, 5000] {
+        let found = status(&|o| o.struct_size = size);
+        assert_eq!(found, HOLEFILL_STATUS_INVALID_STRUCT, "{size}");
+    }
+    assert_eq!(status(&|o| o.version = 2), HOLEFILL_STATUS_INVALID_STRUCT);
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        let found = status(&|o| o.radius = bad);
+        assert_eq!(found, HOLEFILL_STATUS_INVALID_ARGUMENT, "{bad}");
+        let found = status(&|o| o.time_budget = bad);
+        assert_eq!(found, HOLEFILL_STATUS_INVALID_ARGUMENT, "{bad}");
+    }
+    for bad in [1, 5, 201, u32::MAX] {
+        let found = status(&|o| o.neighbours = bad);
+        assert_eq!(found, HOLEFILL_STATUS_INVALID_ARGUMENT, "{bad}");
+    }
+    assert_eq!(status(&|o| o.threads = 1025), HOLEFILL_STATUS_LIMIT);
+    assert_eq!(status(&|o| o.time_budget = 1e-9), HOLEFILL_STATUS_LIMIT);
+    assert_eq!(status(&|o| o.time_budget = 1e6), HOLEFILL_STATUS_OK);
+    // Circles so small that no three points are on one.
+    let found = status(&|o| o.radius = 1e-6);
+    assert_eq!(found, HOLEFILL_STATUS_INVALID_ARGUMENT);
+    let mut mesh = HolefillMesh::default();
+    let mut summary = memory::blank::<HolefillPointSummary>();
+    summary.version = 9;
+    let none = ptr::null();
+    // SAFETY: all pointers are null or to living values.
+    let found = unsafe {
+        let out = &mut summary;
+        holefill_mesh_from_points(&view, none, none, ptr::null(), &mut mesh, out, nothing())
+    };
+    assert_eq!((found, mesh.id), (HOLEFILL_STATUS_INVALID_STRUCT, 0));
+}
+
+#[test]
+fn making_a_mesh_from_points_can_be_stopped_at_every_call() {
+    // Some tens of milliseconds.
+    let points: Vec<[f64; 3]> = fixtures::sphere(60).positions;
+    let view = rows(&points, HOLEFILL_TYPE_F64);
+    let mut n = 0_i64;
+    loop {
+        let mut left = n;
+        let given = Given {
+            options: Some(HolefillPointOptions {
+                progress: Some(stop_at),
+                progress_data: (&raw mut left).cast(),
+                ..point_options()
+            }),
+            ..Given::default()
+        };
+        let (status, ..) = make(&view, &given);
+        if left >= 0 {
+            assert_eq!(status, HOLEFILL_STATUS_OK);
+            break;
+        }
+        assert_eq!(status, HOLEFILL_STATUS_CANCELLED, "call {n}");
+        n += 1 + n / 3;
+    }
+    assert!(n > 0, "the callback is asked");
+}

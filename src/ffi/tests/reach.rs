@@ -1,0 +1,146 @@
+//! Whatever the Rust interface can do with a hole can be asked for through C: every method, every parameter.
+
+use super::*;
+use crate::fill::method::Method;
+use crate::fill::options::FillOptions;
+use std::collections::BTreeSet;
+
+/// A name as the library hands it out.
+fn name(text: *const c_char) -> &'static str {
+    static_text(text).expect("there is an entry")
+}
+
+fn text_of(text: &str) -> CString {
+    CString::new(text).expect("no zero byte")
+}
+
+#[test]
+fn every_method_is_reached() {
+    let count = holefill_method_count();
+    let names: Vec<&str> = (0..count).map(|i| name(holefill_method_name(i))).collect();
+    let known: Vec<&str> = Method::ALL.iter().map(|m| m.name()).collect();
+    assert_eq!(names, known);
+    assert!(holefill_method_name(count).is_null());
+    for method in names {
+        let mesh = holed_mesh();
+        let asked = text_of(method);
+        let options = HolefillFillOptions {
+            method: asked.as_ptr(),
+            ..options()
+        };
+        let mut report = HolefillReport::default();
+        let mut hole = memory::blank::<HolefillHole>();
+        // SAFETY: all pointers are null or to living values.
+        unsafe {
+            let status = holefill_mesh_fill_loop(mesh.0, 0, &options, &mut report, nothing());
+            assert_eq!(status, HOLEFILL_STATUS_OK, "{method}");
+            let status = holefill_report_hole(report, 0, &mut hole, nothing());
+            assert_eq!(status, HOLEFILL_STATUS_OK);
+        }
+        let mut used: Vec<&str> = static_text(hole.method).into_iter().collect();
+        for attempt in 0..hole.tried_count {
+            let (mut tried, mut length) = (ptr::null(), 0);
+            // SAFETY: all pointers are null or to living values.
+            unsafe {
+                let no = ptr::null_mut();
+                holefill_report_tried(
+                    report,
+                    0,
+                    attempt,
+                    &mut tried,
+                    no,
+                    0,
+                    &mut length,
+                    nothing(),
+                );
+            }
+            used.push(name(tried));
+        }
+        holefill_report_free(report);
+        // `auto` is none of its own: it chooses among the others.
+        assert!(
+            method == "auto" || used.contains(&method),
+            "{method}: {used:?}"
+        );
+    }
+}
+
+/// Sets a parameter through C; whether it was taken.
+fn set(parameters: HolefillParameters, name: &str, value: &str) -> bool {
+    let (name, value) = (text_of(name), text_of(value));
+    // SAFETY: the texts end with a zero byte.
+    let status =
+        unsafe { holefill_parameters_set(parameters, name.as_ptr(), value.as_ptr(), nothing()) };
+    let refused = HOLEFILL_STATUS_INVALID_ARGUMENT;
+    assert!([HOLEFILL_STATUS_OK, refused].contains(&status), "{status}");
+    status == HOLEFILL_STATUS_OK
+}
+
+fn get(parameters: HolefillParameters, name: &str) -> String {
+    let name = text_of(name);
+    // SAFETY: `text` gives room as it says.
+    text(&|buffer, capacity, length| unsafe {
+        holefill_parameters_get(
+            parameters,
+            name.as_ptr(),
+            buffer,
+            capacity,
+            length,
+            nothing(),
+        )
+    })
+}
+
+/// Values that a parameter may take: the words of its description, also with an ending that is named there, and some
+/// numbers.
+fn candidates(allowed: &str) -> BTreeSet<String> {
+    let is_word = |c: char| c.is_ascii_alphanumeric() || "-._/".contains(c);
+    let words: Vec<&str> = allowed
+        .split(|c| !is_word(c))
+        .map(|w| w.trim_matches('.'))
+        .filter(|w| !w.is_empty())
+        .collect();
+    let endings = words.iter().filter(|w| w.starts_with('/'));
+    let ended = endings.flat_map(|ending| words.iter().map(move |w| format!("{w}{ending}")));
+    let numbers = [
+        "0", "1", "2", "3", "7", "10", "15", "50", "0.01", "0.125", "0.5", "1.5",
+    ];
+    let plain = words.iter().chain(&numbers).map(|&w| w.to_owned());
+    plain.chain(ended).collect()
+}
+
+#[test]
+fn every_parameter_is_reached() {
+    let count = holefill_parameter_count();
+    let known: Vec<_> = FillOptions::parameters().collect();
+    assert_eq!(count as usize, known.len());
+    assert!(holefill_parameter_name(count).is_null());
+    let mut parameters = HolefillParameters::default();
+    // SAFETY: the pointer is to a living value.
+    unsafe { holefill_parameters_new(&mut parameters, nothing()) };
+    let mut asked = Vec::new();
+    for (i, parameter) in (0..count).zip(&known) {
+        let name = name(holefill_parameter_name(i));
+        assert_eq!(name, parameter.name);
+        let default = static_text(holefill_parameter_default(i)).unwrap_or_default();
+        assert_eq!(get(parameters, name), default, "{name}");
+        assert!(set(parameters, name, default), "{name} takes its default");
+        assert!(!set(parameters, name, "no such value,,"), "{name}");
+        let changed = candidates(parameter.allowed)
+            .into_iter()
+            .any(|value| set(parameters, name, &value) && get(parameters, name) != default);
+        assert!(changed, "{name} never changes: {}", parameter.allowed);
+        asked.push(get(parameters, name));
+    }
+    // And a fill that is given them gets them.
+    let given = HolefillFillOptions {
+        parameters,
+        ..memory::blank()
+    };
+    // SAFETY: the pointer is to a living value.
+    let (read, _) = unsafe { super::super::options::read_options(&given) }.expect("allowed");
+    for (parameter, asked) in known.iter().zip(asked) {
+        assert_eq!(parameter.value(&read), asked, "{}", parameter.name);
+    }
+    holefill_parameters_free(parameters);
+}

@@ -65,6 +65,9 @@ bool run_report(const Arguments& arguments) {
          "not fill every hole (pinched rims, for example) the table says so, and where it closes an island by itself the two "
          "are different surfaces. Times: of filling alone, both in the same run, two cases at a time.\n"},
     };
+    // Rows that are part of the repository.
+    static constexpr const char* PICTURES[] = {"armpit.auto", "bunny_large.auto", "elephant_fringe.fair-c2", "goat_horns.auto",
+                                               "hemisphere_bowl.auto", "sphere_half.auto", "thin_shell.flat"};
     if (arguments.output.empty()) return true;
     std::ofstream page(arguments.output + "/cross-validation.md");
     page << "# Cross-validation with CGAL and OpenMesh\n\nMade by `ctest -L \"cgal|openmesh\"`; see "
@@ -76,6 +79,10 @@ bool run_report(const Arguments& arguments) {
         if (!table) continue;
         page << "\n" << part.text << "\n" << std::string(std::istreambuf_iterator<char>(table), {});
     }
+    page << "\n## Pictures\n\nThe input, ours, CGAL's, and the truth; what is new is orange, and the inside of the surface is "
+            "blue. The run makes one row for each case and method.\n";
+    for (const char* name : PICTURES)
+        page << "\n`" << name << "`\n\n![" << name << "](../images/cross-validation/" << name << ".png)\n";
     page.close();
     return static_cast<bool>(page);
 }

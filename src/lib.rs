@@ -44,7 +44,8 @@ pub use boundary::select::Selection;
 pub use error::{Error, ErrorKind, Result};
 pub use fill::method::Method;
 pub use fill::options::{
-    AttributeOptions, AutoOptions, FillOptions, FilledAttributes, Interpolator, Parameter,
+    AttributeOptions, AutoOptions, FairWeights, FairingOptions, FillOptions, FilledAttributes,
+    Interpolator, Parameter,
 };
 pub use fill::pipeline::fill_holes;
 pub use fill::progress::{Progress, ProgressCallback};

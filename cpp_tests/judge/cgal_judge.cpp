@@ -35,6 +35,17 @@ std::size_t count_intersections(const Fill& fill, const CgalMesh& mesh) {
         pairs.begin(), pairs.end(), [&](const auto& p) { return std::max<std::size_t>(p.first, p.second) >= old; }));
 }
 
+// Six times the volume of the cone over the triangles with its tip in the middle of the vertices: below zero where an open
+// mesh is turned inside out.
+double lean(const Arrays& mesh) {
+    Point middle{};
+    for (const Point& p : mesh.points) middle = middle + (1.0 / static_cast<double>(mesh.points.size())) * p;
+    double sum = 0.0;
+    for (const Triangle& t : mesh.triangles)
+        sum += dot(mesh.points[t[0]] - middle, area_vector(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]));
+    return sum;
+}
+
 // New triangles without area, and needles. Where the shortest edge of a needle joins two vertices of the input, the rim
 // forces it.
 std::pair<std::size_t, std::size_t> count_bad_shapes(const Fill& fill, const CgalMesh& mesh) {
@@ -54,6 +65,18 @@ std::pair<std::size_t, std::size_t> count_bad_shapes(const Fill& fill, const Cga
 }
 
 }  // namespace
+
+std::size_t count_intersections_by_cgal(const Case& c, const Arrays& output) {
+    const std::size_t old = c.input.triangles.size();
+    if (output.triangles.size() <= old) return 0;
+    Fill fill{&c, "", output, {}, 0.0};
+    Hole whole;
+    whole.first_triangle = old;
+    whole.triangle_count = output.triangles.size() - old;
+    fill.holes.push_back(whole);
+    CgalMesh mesh;
+    return build(output, mesh).empty() ? count_intersections(fill, mesh) : 0;
+}
 
 Findings judge_by_cgal(const Fill& fill, CgalMeasures& measures) {
     Findings findings;
@@ -98,8 +121,10 @@ Findings judge_by_cgal(const Fill& fill, CgalMeasures& measures) {
 
     if (measures.is_closed) {
         measures.volume = PMP::volume(mesh);
-        if (!(measures.volume > 0.0)) object("cgal-volume", "the volume is " + std::to_string(measures.volume));
-        if (!PMP::is_outward_oriented(mesh)) object("cgal-outward", "not oriented outwards");
+        const bool is_outward = lean(fill.of->input) > 0.0;
+        if (!(is_outward ? measures.volume > 0.0 : measures.volume < 0.0))
+            object("cgal-volume", "the volume is " + std::to_string(measures.volume));
+        if (PMP::is_outward_oriented(mesh) != is_outward) object("cgal-outward", "not oriented as the input is");
     }
     return findings;
 }

@@ -33,10 +33,10 @@ bool Exceptions::allow(const std::string& name, const std::string& method, const
     return true;
 }
 
-std::vector<std::string> Exceptions::unseen(const std::string& name, const std::string& method) const {
+std::vector<std::string> Exceptions::unseen(const std::string& name, const std::string& method, bool is_fairing) const {
     std::vector<std::string> out;
     for (const auto& [key, was_seen] : seen_)
-        if (!was_seen && std::get<0>(key) == name && std::get<1>(key) == method) out.push_back(std::get<2>(key));
+        if (!was_seen && (std::get<2>(key) == FAIRING) == is_fairing && std::get<0>(key) == name && std::get<1>(key) == method) out.push_back(std::get<2>(key));
     return out;
 }
 

@@ -10,6 +10,9 @@
 
 namespace judge {
 
+// The check of `judge fairing`; all others are made by `judge cases` and `judge inputs`.
+inline const std::string FAIRING = "fairing";
+
 // Allows what the file names; says afterwards what it names in vain.
 class Exceptions {
 public:
@@ -19,8 +22,9 @@ public:
     // Whether the finding is allowed. It counts as seen then.
     bool allow(const std::string& name, const std::string& method, const std::string& check);
 
-    // Exceptions for this case and method that were not seen.
-    std::vector<std::string> unseen(const std::string& name, const std::string& method) const;
+    // Checks that are excepted for this case and method and were not seen; of those of fairing alone, or without them.
+    std::vector<std::string> unseen(const std::string& name, const std::string& method,
+                                    bool is_fairing = false) const;
 
 private:
     // Whether it was seen, by case, method and check.

@@ -18,6 +18,9 @@ struct CgalMeasures {
     std::size_t intersections = 0, needles = 0;
 };
 Findings judge_by_cgal(const Fill& fill, CgalMeasures& measures);
+
+// The number of pairs of triangles that intersect, one of them new, in whatever filled the case.
+std::size_t count_intersections_by_cgal(const Case& c, const Arrays& output);
 #endif
 
 #ifdef JUDGE_OPENMESH

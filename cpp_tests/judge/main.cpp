@@ -1,6 +1,7 @@
 // Judges the library's results by CGAL and OpenMesh; see README.md in this folder.
 //
-//   judge cases|mutations|weights [--cases FOLDER] [--exceptions FILE] [--only TEXT] [--output FOLDER]
+//   judge cases|mutations|inputs|weights|fairing|report [--cases FOLDER] [--exceptions FILE] [--bounds FILE]
+//         [--data FOLDER] [--only TEXT] [--output FOLDER]
 //
 // Exit status: 0 nothing speaks against the results, 1 something does, 2 bad usage.
 
@@ -16,13 +17,18 @@ int main(int argc, char** argv) {
     static const std::map<std::string, std::function<bool(const Arguments&)>> commands{
         {"cases", judge::run_cases},
         {"mutations", judge::run_mutations},
+        {"inputs", judge::run_inputs},
+        {"report", judge::run_report},
 #ifdef JUDGE_CGAL
         {"weights", judge::run_weights},
+        {"fairing", judge::run_fairing},
 #endif
     };
     Arguments arguments;
     const std::map<std::string, std::string*> options{{"--cases", &arguments.cases},
                                                       {"--exceptions", &arguments.exceptions},
+                                                      {"--bounds", &arguments.bounds},
+                                                      {"--data", &arguments.data},
                                                       {"--only", &arguments.only},
                                                       {"--output", &arguments.output}};
     const auto command = argc > 1 ? commands.find(argv[1]) : commands.end();
@@ -33,8 +39,8 @@ int main(int argc, char** argv) {
         if (is_understood) *option->second = argv[i + 1];
     }
     if (!is_understood) {
-        std::fprintf(stderr, "usage: judge COMMAND [--cases FOLDER] [--exceptions FILE] [--only TEXT]"
-                             " [--output FOLDER]\ncommands:");
+        std::fprintf(stderr, "usage: judge COMMAND [--cases FOLDER] [--exceptions FILE] [--bounds FILE]"
+                             " [--data FOLDER] [--only TEXT] [--output FOLDER]\ncommands:");
         for (const auto& [name, run] : commands) std::fprintf(stderr, " %s", name.c_str());
         std::fprintf(stderr, "\n");
         return 2;

@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "fill.h"
 #include "judged.h"
+#include "report.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -163,13 +164,19 @@ bool run_mutations(const Arguments& arguments) {
         }
     });
     bool all = true;
+    std::vector<std::vector<std::string>> rows;
     std::printf("%-40s %8s %8s %10s %8s %10s\n", "corruption", "made", "caught", "promises", "CGAL", "OpenMesh");
     for (const Mutation& mutation : MUTATIONS) {
         Tally& tally = tallies[mutation.name];
         std::printf("%-40s %8zu %8zu %10zu %8zu %10zu\n", mutation.name, tally.made, tally.caught, tally.by["promises"],
                     tally.by["cgal"], tally.by["openmesh"]);
+        rows.push_back({mutation.name, std::to_string(tally.made), std::to_string(tally.caught),
+                        std::to_string(tally.by["promises"]), std::to_string(tally.by["cgal"]),
+                        std::to_string(tally.by["openmesh"])});
         all = all && tally.made > 0 && tally.caught == tally.made;
     }
+    write_table(arguments.output, "mutations.md", {"corruption", "made", "caught", "by the promises", "by CGAL", "by OpenMesh"},
+                rows);
     return all;
 }
 

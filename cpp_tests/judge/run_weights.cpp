@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "fill.h"
 #include "judged.h"
+#include "report.h"
 #include "weights.h"
 
 #include <algorithm>
@@ -260,13 +261,19 @@ bool run_weights(const Arguments& arguments) {
                 "neither", "angle", "area");
     bool all = true;
     std::size_t equal = 0;
+    std::vector<std::vector<std::string>> rows;
     for (const auto& [kind, t] : tallies) {
+        rows.push_back({kind, std::to_string(t.loops), std::to_string(t.equal), std::to_string(t.ties),
+                        std::to_string(t.different), std::to_string(t.only_one + t.neither), scientific(t.largest_angle),
+                        scientific(t.largest_area)});
         std::printf("%-36s %7zu %7zu %7zu %9zu %8zu %8zu %9.1e %9.1e\n", kind.c_str(), t.loops, t.equal, t.ties,
                     t.different, t.only_one, t.neither, t.largest_angle, t.largest_area);
         all = all && t.different == 0 && t.only_one == 0;
         equal += t.equal;
     }
     std::printf("%zu loops, %zu of them made, %zu of equal weight\n", tasks.size(), made, equal);
+    write_table(arguments.output, "weights.md",
+                {"loops", "number", "equal", "equal without ties", "different", "no triangulation", "angle", "area"}, rows);
     return all && equal >= 1000;
 }
 

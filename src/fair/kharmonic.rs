@@ -13,8 +13,8 @@
 //!   with the surroundings' tangent planes;
 //! * order 3: `gᵀ L g` with `g = M⁻¹ L x` over the interior, rim and ring 1 vertices, for their curvature.
 //!
-//! In `L` as a quadratic form, negative weights count as zero: the form stays definite where the triangles
-//! could not be made Delaunay. Vertices whose triangles do not close (on another boundary, say) contribute no energy.
+//! In `L` as a quadratic form, negative weights count as zero (but for [`Weights::Voronoi`]): the form stays definite
+//! where the triangles could not be made Delaunay. Vertices whose triangles do not close (on another boundary, say) contribute no energy.
 //!
 //! Not guaranteed: that the result has no self-intersection, nor that it stays near the rim.
 
@@ -157,7 +157,7 @@ impl<'a> Operator<'a> {
         let mut diagonal = 0.0;
         for e in self.domain.row(vertex) {
             if self.is_summed[e.column as usize] {
-                let weight = e.weight.max(0.0);
+                let weight = self.domain.form_weight(e);
                 diagonal += weight;
                 out.add(e.column, -factor * weight);
             }
@@ -282,7 +282,7 @@ fn membrane_equations(
         matrix.values.push(0.0);
         let mut sum = Vec3::zeros();
         for e in domain.row(v) {
-            let weight = e.weight.max(0.0);
+            let weight = domain.form_weight(e);
             matrix.values[diagonal_at] += weight;
             let u = e.column as usize;
             if u < domain.rim_count {

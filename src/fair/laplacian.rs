@@ -2,7 +2,9 @@
 //!
 //! Based on: U. Pinkall, K. Polthier, "Computing discrete minimal surfaces and their conjugates",
 //! Experimental Mathematics 2(1), 1993 (cotangent weights); lumped areas as in M. Botsch, L. Kobbelt,
-//! "An intuitive framework for real-time freeform modeling", ACM TOG 23(3), 2004.
+//! "An intuitive framework for real-time freeform modeling", ACM TOG 23(3), 2004; Voronoi areas as in M. Meyer,
+//! M. Desbrun, P. Schröder, A. H. Barr, "Discrete differential-geometry operators for triangulated 2-manifolds",
+//! VisMath 2002, section 3.3.
 
 use crate::error::{Result, proceed_unless};
 use crate::math::{Vec3, cross_normal};
@@ -11,6 +13,8 @@ use crate::patch::{PatchSurface, Surroundings};
 /// Cotangents are limited to those of an angle of about half a degree: beyond it they carry more rounding
 /// than shape.
 const LARGEST_COTANGENT: f64 = 100.0;
+/// The same for Voronoi weights: the cotangent of the angle whose cosine is 0.999, as CGAL limits it.
+const LARGEST_COSINE: f64 = 0.999;
 /// Vertex areas are at least this share of the mean one, so that a sliver does not outweigh everything.
 const SMALLEST_AREA_SHARE: f64 = 1e-3;
 
@@ -27,6 +31,9 @@ pub(crate) enum Weights {
     Umbrella,
     /// Half the cotangents of the opposite angles, and a third of the triangles' areas.
     Cotangent,
+    /// The same cotangents, and the triangles' shares of the Voronoi cells. Nothing but the cotangents is limited, and
+    /// negative weights count: what CGAL does, for comparison with it.
+    Voronoi,
 }
 
 /// An entry of a row of the Laplacian.
@@ -51,6 +58,8 @@ pub(crate) struct Domain {
     entries: Vec<Entry>,
     /// Area of each vertex.
     pub(crate) areas: Vec<f64>,
+    /// Where the Laplacian is a quadratic form, whether negative weights count.
+    has_negative: bool,
     /// Whether all edges at the vertex have two triangles, so that its row is that of the closed surface.
     pub(crate) is_complete: Vec<bool>,
 }
@@ -101,6 +110,7 @@ impl Domain {
             row_starts: Vec::new(),
             entries: Vec::new(),
             areas: vec![0.0; points.len()],
+            has_negative: weights == Weights::Voronoi,
             is_complete: vec![true; points.len()],
             points,
             triangles,
@@ -118,6 +128,15 @@ impl Domain {
     /// Off-diagonal entries of the row of `vertex`, with ascending columns; the diagonal is minus their sum.
     pub(crate) fn row(&self, vertex: usize) -> &[Entry] {
         &self.entries[self.row_starts[vertex] as usize..self.row_starts[vertex + 1] as usize]
+    }
+
+    /// The weight of an entry where the Laplacian is a quadratic form.
+    pub(crate) fn form_weight(&self, entry: &Entry) -> f64 {
+        if self.has_negative {
+            entry.weight
+        } else {
+            entry.weight.max(0.0)
+        }
     }
 
     fn assemble(&mut self, weights: Weights, interrupted: &dyn Fn() -> bool) -> Result<()> {
@@ -141,9 +160,11 @@ impl Domain {
             if i % ROWS_PER_CHECK == ROWS_PER_CHECK - 1 {
                 proceed_unless(interrupted)?;
             }
-            let (cotangents, area) = match weights {
-                Weights::Uniform | Weights::Umbrella => ([1.0; 3], 0.0),
-                Weights::Cotangent => cotangents_and_area(t.map(|v| &self.points[v as usize])),
+            let corners = || t.map(|v| &self.points[v as usize]);
+            let (cotangents, areas) = match weights {
+                Weights::Uniform | Weights::Umbrella => ([1.0; 3], [0.0; 3]),
+                Weights::Cotangent => cotangents_and_thirds(corners()),
+                Weights::Voronoi => cotangents_and_cells(corners()),
             };
             for k in 0..3 {
                 let (a, b) = (t[(k + 1) % 3], t[(k + 2) % 3]);
@@ -155,7 +176,7 @@ impl Domain {
                     };
                     *slot += 1;
                 }
-                self.areas[t[k] as usize] += area / 3.0;
+                self.areas[t[k] as usize] += areas[k];
             }
         }
         // Nearly every edge has two triangles.
@@ -172,7 +193,7 @@ impl Domain {
                 self.is_complete[v] &= same.len() == 2;
                 let weight = match weights {
                     Weights::Uniform | Weights::Umbrella => 1.0,
-                    Weights::Cotangent => same.iter().map(|e| e.weight).sum(),
+                    Weights::Cotangent | Weights::Voronoi => same.iter().map(|e| e.weight).sum(),
                 };
                 self.entries.push(Entry {
                     column: same[0].column,
@@ -194,13 +215,18 @@ impl Domain {
                     *area = area.max(SMALLEST_AREA_SHARE * mean);
                 }
             }
+            Weights::Voronoi => {
+                for area in &mut self.areas {
+                    *area = area.max(f64::MIN_POSITIVE);
+                }
+            }
         }
         Ok(())
     }
 }
 
-/// Cotangent of the angle at each corner, and the area.
-fn cotangents_and_area(corners: [&Vec3; 3]) -> ([f64; 3], f64) {
+/// Cotangent of the angle at each corner, and a third of the area for each.
+fn cotangents_and_thirds(corners: [&Vec3; 3]) -> ([f64; 3], [f64; 3]) {
     let double_area = cross_normal(corners[0], corners[1], corners[2]).norm();
     let cotangent = |k: usize| {
         let (p, q, r) = (corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
@@ -215,6 +241,63 @@ fn cotangents_and_area(corners: [&Vec3; 3]) -> ([f64; 3], f64) {
     };
     (
         [cotangent(0), cotangent(1), cotangent(2)],
-        double_area / 2.0,
+        [double_area / 6.0; 3],
     )
+}
+
+/// Cotangent of the angle at each corner, and the corner's share of the area: what is nearest to it, or where an angle
+/// is obtuse half of the area at that angle and a quarter at the others.
+fn cotangents_and_cells(corners: [&Vec3; 3]) -> ([f64; 3], [f64; 3]) {
+    let double_area = cross_normal(corners[0], corners[1], corners[2]).norm();
+    let side = |k: usize| corners[(k + 2) % 3] - corners[(k + 1) % 3];
+    let along = [0, 1, 2].map(|k: usize| -side((k + 1) % 3).dot(&side((k + 2) % 3)));
+    let limited = [0, 1, 2].map(|k: usize| {
+        let lengths = side((k + 1) % 3).norm() * side((k + 2) % 3).norm();
+        let cosine = (along[k] / lengths).clamp(-LARGEST_COSINE, LARGEST_COSINE);
+        cosine / (1.0 - cosine * cosine).sqrt()
+    });
+    let obtuse = along.iter().position(|&a| a < 0.0);
+    let areas = [0, 1, 2].map(|k: usize| match obtuse {
+        Some(at) if at == k => double_area / 4.0,
+        Some(_) => double_area / 8.0,
+        None => {
+            let part = |j: usize| along[j] / double_area * side(j).norm_squared();
+            (part((k + 1) % 3) + part((k + 2) % 3)) / 8.0
+        }
+    });
+    (limited, areas)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn voronoi_cells_share_the_area_of_a_triangle() {
+        let right = [Vec3::zeros(), 2.0 * Vec3::x(), Vec3::y()];
+        let acute = [Vec3::zeros(), 2.0 * Vec3::x(), Vec3::new(0.7, 1.5, 0.3)];
+        let obtuse = [Vec3::zeros(), 2.0 * Vec3::x(), Vec3::new(1.0, 0.0, 0.25)];
+        for corners in [right, acute, obtuse] {
+            let corners = [&corners[0], &corners[1], &corners[2]];
+            let (cotangents, cells) = cotangents_and_cells(corners);
+            let (same, thirds) = cotangents_and_thirds(corners);
+            for k in 0..3 {
+                assert!((cotangents[k] - same[k]).abs() < 1e-12);
+            }
+            let (whole, sum) = (thirds.iter().sum::<f64>(), cells.iter().sum::<f64>());
+            assert!((whole - sum).abs() < 1e-15);
+        }
+        // The cell of the right angle reaches to the middle of the opposite side: half of the triangle.
+        let (_, cells) = cotangents_and_cells([&right[0], &right[1], &right[2]]);
+        assert!((cells[0] - 0.5).abs() < 1e-15);
+        assert!((cells[1] - 0.25).abs() < 1e-15);
+    }
+
+    #[test]
+    fn cotangents_for_comparison_are_limited_like_those_of_cgal() {
+        let needle = [Vec3::zeros(), Vec3::x(), Vec3::new(1.0, 1e-3, 0.0)];
+        let (cotangents, _) = cotangents_and_cells([&needle[0], &needle[1], &needle[2]]);
+        let limit = LARGEST_COSINE / (1.0 - LARGEST_COSINE * LARGEST_COSINE).sqrt();
+        assert!((cotangents[0] - limit).abs() < 1e-12);
+    }
 }

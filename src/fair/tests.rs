@@ -8,7 +8,7 @@ use crate::math::sparse::SpdSolver;
 use crate::patch::{PatchSurface, Surroundings};
 
 const ORDERS: [Order; 3] = [Order::One, Order::Two, Order::Three];
-const WEIGHTS: [Weights; 2] = [Weights::Uniform, Weights::Cotangent];
+const WEIGHTS: [Weights; 3] = [Weights::Uniform, Weights::Cotangent, Weights::Voronoi];
 
 /// A whole mesh divided into a patch, whose interior is known, and two rings round it.
 fn divided(mesh: &Arrays, is_patch: impl Fn([f64; 3]) -> bool) -> (PatchSurface, Surroundings) {
@@ -156,7 +156,7 @@ fn energy(domain: &Domain, order: Order, points: &[Vec3]) -> f64 {
             .flat_map(|v| domain.row(v).iter().map(move |e| (v, e)))
             .map(|(v, e)| {
                 let d = position(e.column as usize) - position(v);
-                e.weight.max(0.0) * d.norm_squared()
+                domain.form_weight(e) * d.norm_squared()
             })
             .sum(),
         Order::Two => (0..count)
@@ -167,7 +167,7 @@ fn energy(domain: &Domain, order: Order, points: &[Vec3]) -> f64 {
             .filter(|&v| is_summed(v))
             .flat_map(|v| domain.row(v).iter().map(move |e| (v, e)))
             .filter(|(_, e)| is_summed(e.column as usize))
-            .map(|(v, e)| e.weight.max(0.0) * (g(e.column as usize) - g(v)).norm_squared())
+            .map(|(v, e)| domain.form_weight(e) * (g(e.column as usize) - g(v)).norm_squared())
             .sum(),
     }
 }

@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::fair::kharmonic::{Order, fair};
 use crate::fair::laplacian::Weights;
 use crate::fill::method::Method;
-use crate::fill::options::FillOptions;
+use crate::fill::options::{FairWeights, FillOptions};
 use crate::math::sparse::SpdSolver;
 use crate::patch::{HoleShape, PatchSurface};
 use crate::refine::{RefineOptions, grading, refine, rim_sizes};
@@ -66,15 +66,15 @@ impl<'a> Staircase<'a> {
         let (mut surface, _) = self.refined()?;
         let mut solver = SpdSolver::new(self.interrupted);
         let around = &self.hole.surroundings;
-        fair(
-            &mut surface,
-            around,
-            order.min(Order::Two),
-            Weights::Cotangent,
-            &mut solver,
-        )?;
-        if order == Order::Three {
-            fair(&mut surface, around, order, Weights::Cotangent, &mut solver)?;
+        let weights = match self.options.fairing.weights {
+            FairWeights::Lumped => Weights::Cotangent,
+            FairWeights::Voronoi => Weights::Voronoi,
+        };
+        let passes = [Order::Two, order];
+        let passes = &passes[usize::from(order != Order::Three)..];
+        let skipped = passes.len().saturating_sub(self.options.fairing.passes);
+        for &order in &passes[skipped..] {
+            fair(&mut surface, around, order, weights, &mut solver)?;
         }
         Ok(surface)
     }

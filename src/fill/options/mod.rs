@@ -13,6 +13,7 @@ mod unfold;
 pub use attributes::{AttributeOptions, FilledAttributes, Interpolator};
 pub use auto::AutoOptions;
 pub use parameter::Parameter;
+pub use staircase::{FairWeights, FairingOptions};
 
 use super::method::Method;
 use crate::error::{Error, ErrorKind, Result};
@@ -53,6 +54,8 @@ pub struct FillOptions {
     pub grading: Option<f64>,
     /// Largest number of new vertices in one hole; default 10,000,000.
     pub max_new_vertices: usize,
+    /// How [`Method::Membrane`], [`Method::FairC1`] and [`Method::FairC2`] fair the refined patch.
+    pub fairing: FairingOptions,
     /// What [`Method::Auto`] and [`Method::Curvature`] do.
     pub auto: AutoOptions,
     /// Options of [`Method::Hpde`].
@@ -85,6 +88,7 @@ impl Default for FillOptions {
             density: 1.0,
             grading: None,
             max_new_vertices: 10_000_000,
+            fairing: FairingOptions::default(),
             auto: AutoOptions::default(),
             hpde: HpdeOptions::default(),
             grey: GreyOptions::default(),

@@ -1,0 +1,31 @@
+// Rows of pictures of a hole: the input, and what closes it.
+#ifndef HOLEFILL_JUDGE_PICTURE_H
+#define HOLEFILL_JUDGE_PICTURE_H
+
+#include "model.h"
+
+#include <string>
+
+namespace judge {
+
+// A mesh whose triangles from `first_new` on are drawn in another colour.
+struct Scene {
+    const Arrays* mesh = nullptr;
+    std::size_t first_new = 0;
+};
+
+// Where to look: at `center` from the side of `normal`, at a circle of `radius`.
+struct View {
+    Point center{}, normal{};
+    double radius = 1.0;
+};
+
+// The hole of largest diameter, from outside.
+View view_of(const Fill& fill);
+
+// Writes the scenes side by side as PNG; one without a mesh stays empty. Throws std::runtime_error.
+void write_row(const std::string& path, const View& view, const std::vector<Scene>& scenes);
+
+}  // namespace judge
+
+#endif

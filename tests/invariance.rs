@@ -59,7 +59,7 @@ fn models() -> Vec<Model> {
 fn read(folder: &Path) -> Option<Model> {
     let text = fs::read_to_string(folder.join("meta.json")).unwrap();
     let meta: Value = serde_json::from_str(&text).unwrap();
-    let data = holefill::io::read(&folder.join("input.ply")).unwrap();
+    let data = holefill::io::read(folder.join("input.ply")).unwrap();
     let list = |key: &str| meta[key].as_array().unwrap().clone();
     let edges = list("fill_loops")
         .iter()

@@ -95,6 +95,20 @@ else
     skip "the tests in C and C++: ${tools[*]} missing"
 fi
 
+say "MeshLab plugin: built for two generations of MeshLab, tested in their engines"
+meshlab=(ca-certificates xz-utils cmake make g++ binutils python3 python3-venv qtbase5-dev libqt5opengl5-dev
+    libglew-dev libeigen3-dev libgl1)
+apt_install "${meshlab[@]}" || echo "trying without"
+if meshlab_plugin/tests/fetch.sh target/meshlab 2>&1 | tee "$scratch/meshlab" &&
+    cmake -S . -B target/cpp-meshlab -DCMAKE_BUILD_TYPE=Release -DHOLEFILL_BUILD_MESHLAB=ON \
+        -DHOLEFILL_BUILD_PROGRAM=OFF -DHOLEFILL_BUILD_TESTS=OFF -DHOLEFILL_CARGO_TARGET_DIR="$PWD/target" \
+        -DHOLEFILL_MESHLAB_PEERS="$PWD/target/meshlab"; then
+    cmake --build target/cpp-meshlab --parallel "$(nproc)"
+    ctest --test-dir target/cpp-meshlab -L meshlab --parallel "$(nproc)" --no-tests=error --output-on-failure 2>&1 | tee -a "$scratch/ctest"
+else
+    skip "the MeshLab plugin: MeshLab's headers, PyMeshLab or Qt are missing"
+fi
+
 say "demo"
 demo="$scratch/demo"
 holefill demo "$demo"
@@ -121,6 +135,7 @@ say "summary"
 grep -E '^ *(Running|Doc-tests) |^test result' "$scratch/tests"
 grep -E 'SKIPPED|^CASES' "$scratch/tests" | sort -u || true
 [ ! -e "$scratch/ctest" ] || grep 'tests passed' "$scratch/ctest"
+grep '^SKIPPED' "$scratch/meshlab" || true
 for reason in ${skipped[@]+"${skipped[@]}"}; do
     printf '!!! SKIPPED: %s\n' "$reason"
 done

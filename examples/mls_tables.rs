@@ -1,25 +1,27 @@
 //! Runs the experiments of J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed
-//! from point clouds", 2006, Tables 1, 3 and 4, on models that are at hand, and prints them as Markdown beside
-//! the paper's figures:
+//! from point clouds", 2006, Tables 1, 3 and 4, on models that are at hand, and those that show what the method costs.
+//! Writes Markdown and a plot beside the paper's figures:
 //!
 //! ```sh
-//! cargo run --example mls_tables -- ../shared/data/cases > docs/results/mls.md
+//! cargo run --release --example mls_tables -- ../shared/data/cases docs/results
 //! ```
 //!
-//! The argument is the folder of the models; each has `input.ply` and `meta.json` with the loops that stay open.
+//! The first argument is the folder of the models; each has `input.ply` and `meta.json` with the loops that stay open.
+//! The second one is where `mls.md` and `mls-cost.svg` go.
 
-// Printing is what it is for.
-#![allow(clippy::print_stdout)]
+mod shared;
 
 use holefill::{
-    BoundaryLoops, FillOptions, FillReport, HoleStatus, Method, Selection, TriMesh, fill_holes, io,
+    BoundaryLoops, FillOptions, HoleStatus, Method, PointCloud, PointOptions, Selection, TriMesh,
+    mesh_from_points,
 };
-use std::error::Error;
-use std::f64::consts::TAU;
+use rand::RngExt;
+use rand_pcg::Pcg64;
+use shared::cap::sphere_without_cap;
+use shared::plot::{Line, Scale, plot};
+use shared::{Case, Filled, RUNS, Result, command, fill, folders, processor_time};
+use std::fmt::Write;
 use std::path::Path;
-
-/// Runs of each measurement, of which the fastest counts.
-const RUNS: usize = 5;
 
 /// A row of the paper's Table 1 and the model that comes nearest to it.
 struct Row {
@@ -74,91 +76,89 @@ const TABLE_1: [Row; 5] = [
     },
 ];
 
-fn main() -> Result<(), Box<dyn Error>> {
-    let folder = std::env::args()
-        .nth(1)
-        .ok_or("which folder are the models in?")?;
-    let folder = Path::new(&folder);
-    println!("# Moving least squares beside the paper\n");
-    println!(
-        "J. Wang, M. M. Oliveira, \"Filling holes on locally smooth surfaces reconstructed from point clouds\", 2006. Made by `cargo run --example mls_tables -- FOLDER` on one thread; times are the fastest of {RUNS} runs, of filling alone. The paper's are from a Pentium 4 with 2.0 GHz.\n"
+fn main() -> Result<()> {
+    let (models, results) = folders()?;
+    let mut page = String::from("# Moving least squares beside the paper\n\n");
+    writeln!(
+        page,
+        "J. Wang, M. M. Oliveira, \"Filling holes on locally smooth surfaces reconstructed from point clouds\", 2006. Made by {}. Seconds are processor time of the whole fill with its checks, on one thread, the least of {RUNS} runs. The paper's are from a Pentium 4 with 2.0 GHz.\n",
+        command("mls_tables")
+    )?;
+    table_1(&mut page, &models)?;
+    rows_by_size(&mut page)?;
+    caps(&mut page, &models)?;
+    from_points(&mut page, &models)?;
+    cost(&mut page, &results)?;
+    std::fs::write(results.join("mls.md"), page)?;
+    Ok(())
+}
+
+fn options(parameters: &[(&str, &str)]) -> Result<FillOptions> {
+    shared::options(Method::Mls, parameters)
+}
+
+fn table_1(page: &mut String, models: &Path) -> Result<()> {
+    page.push_str("## Table 1: statistics and running times\n\nThe paper's models are not at hand, but for the bunny; each row has one of ours beside it that is as near as we have. `mls` holes are those that the method filled, of all.\n\n");
+    page.push_str("| paper | vertices | after | new | seconds | ours | vertices | after | new | `mls` holes | seconds | paper's over ours |\n");
+    page.push_str(
+        "| --- | ---: | ---: | ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
     );
-    println!("## Table 1: statistics and running times\n");
-    println!(
-        "The paper's models are not at hand, but for the bunny; each row has one of ours beside it that is as near as we have. `mls` holes are those that the method filled, of all.\n"
-    );
-    println!(
-        "| paper | vertices | after | new | seconds | ours | vertices | after | new | `mls` holes | seconds | paper's over ours |"
-    );
-    println!("| --- | ---: | ---: | ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: |");
     for row in &TABLE_1 {
-        let (mesh, selection) = read(folder, row.model)?;
-        let (report, after, seconds) = fill(&mesh, &selection, &options(&[])?)?;
-        let by_mls = report
-            .holes
-            .iter()
-            .filter(|h| h.method == Some(Method::Mls))
-            .count();
-        let before = mesh.positions().len();
-        println!(
-            "| {} | {} | {} | {} | {} | `{}` | {before} | {} | {} | {by_mls} of {} | {seconds:.4} | {:.0} |",
+        let case = Case::read(models, row.model)?;
+        let filled = case.time(&options(&[])?)?;
+        writeln!(
+            page,
+            "| {} | {} | {} | {} | {} | `{}` | {} | {} | {} | {} of {} | {:.4} | {:.0} |",
             row.paper,
             row.vertices_before,
             row.vertices_after,
             row.vertices_after - row.vertices_before,
             row.seconds,
             row.model,
-            after.positions().len(),
-            after.positions().len() - before,
-            report.count(HoleStatus::Filled),
-            row.seconds / seconds,
-        );
+            case.mesh.positions().len(),
+            filled.mesh.positions().len(),
+            filled.points,
+            filled.by(Method::Mls),
+            filled.report.count(HoleStatus::Filled),
+            filled.seconds,
+            row.seconds / filled.seconds,
+        )?;
     }
-    rows_by_size()?;
-    caps(folder)?;
-    scaling()?;
     Ok(())
 }
 
 /// Tables 3 and 4: two caps of a sphere.
-fn caps(folder: &Path) -> Result<(), Box<dyn Error>> {
-    println!("\n## Tables 3 and 4: caps of a sphere\n");
-    println!(
-        "A sphere of radius 5 without a cap of half-angle 30 and 60 degrees; 180 points of the vicinity each (Table 3). The error is the mean distance of the new vertices from the sphere, over its radius. The plane makes the paper's \"egg\" of the larger cap; the curved domain does not.\n"
+fn caps(page: &mut String, models: &Path) -> Result<()> {
+    page.push_str("\n## Tables 3 and 4: caps of a sphere\n\nA sphere of radius 5 without a cap of half-angle 30 and 60 degrees; 180 points of the vicinity each (Table 3). The error is the mean distance of the new vertices from the sphere, over its radius. The plane makes the paper's \"egg\" of the larger cap; the curved domain does not. `auto` is the default.\n\n");
+    page.push_str(
+        "| model | vertices | triangles | after, paper | after, ours | domain | mean error | seconds |\n",
     );
-    println!(
-        "| model | vertices | triangles | after, paper | after, ours | domain | mean error | seconds |"
-    );
-    println!("| --- | ---: | ---: | ---: | ---: | --- | ---: | ---: |");
+    page.push_str("| --- | ---: | ---: | ---: | ---: | --- | ---: | ---: |\n");
     for (model, paper) in [("mls_cap30", "3542 / 7080"), ("mls_cap60", "3672 / 7098")] {
-        let (mesh, selection) = read(folder, model)?;
-        for domain in ["plane", "curved"] {
-            let (_, after, seconds) =
-                fill(&mesh, &selection, &options(&[("mls.domain", domain)])?)?;
-            let new = &after.positions()[mesh.positions().len()..];
+        let case = Case::read(models, model)?;
+        let before = case.mesh.positions().len();
+        for domain in ["plane", "curved", "auto"] {
+            let filled = case.time(&options(&[("mls.domain", domain)])?)?;
+            let new = &filled.mesh.positions()[before..];
             let error =
                 |p: &[f64; 3]| (p.iter().map(|x| x * x).sum::<f64>().sqrt() / 5.0 - 1.0).abs();
             let mean = new.iter().map(error).sum::<f64>() / new.len().max(1) as f64;
-            println!(
-                "| `{model}` | {} | {} | {paper} | {} / {} | {domain} | {mean:.1e} | {seconds:.4} |",
-                mesh.positions().len(),
-                mesh.triangles().len(),
-                after.positions().len(),
-                after.triangles().len(),
-            );
+            writeln!(
+                page,
+                "| `{model}` | {before} | {} | {paper} | {} / {} | {domain} | {mean:.1e} | {:.4} |",
+                case.mesh.triangles().len(),
+                filled.mesh.positions().len(),
+                filled.mesh.triangles().len(),
+                filled.seconds,
+            )?;
         }
     }
     Ok(())
 }
 
 /// Holes of the sizes in the paper's Table 1, each as one cap of a sphere.
-fn rows_by_size() -> Result<(), Box<dyn Error>> {
-    println!("\n## Table 1 by size\n");
-    println!(
-        "The cost depends on the points of the vicinity m and the samples k. One hole each with at least the m and the k of the paper's row, in a sphere:\n"
-    );
-    println!("| paper | m | k | seconds | ours m | k | seconds | paper's over ours |");
-    println!("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
+fn rows_by_size(page: &mut String) -> Result<()> {
+    page.push_str("\n## Table 1 by size\n\nThe cost depends on the points of the vicinity m and the samples k. One hole each with at least the m and the k of the paper's row, in a sphere:\n\n| paper | m | k | seconds | ours m | k | seconds | paper's over ours |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
     for row in &TABLE_1 {
         let samples = row.vertices_after - row.vertices_before;
         // So that the vicinity ends well before the equator, where the plane would see it fold.
@@ -167,16 +167,20 @@ fn rows_by_size() -> Result<(), Box<dyn Error>> {
         let finer = (1..).map(|i| (least + 12 * i, 30));
         for (meridians, degrees) in caps.into_iter().chain(finer) {
             let cap = Cap::new(meridians, degrees);
-            let beta = cap.beta(row.vicinity.div_ceil(meridians));
-            let (m, k, seconds) = cap.measure(beta)?;
-            if m >= row.vicinity && k >= samples {
-                println!(
-                    "| {} | {} | {samples} | {} | {m} | {k} | {seconds:.4} | {:.0} |",
+            let parallels = row.vicinity.div_ceil(meridians);
+            let m = parallels * meridians;
+            let filled = cap.fill(parallels, RUNS)?;
+            if m >= row.vicinity && filled.points >= samples {
+                writeln!(
+                    page,
+                    "| {} | {} | {samples} | {} | {m} | {} | {:.4} | {:.0} |",
                     row.paper,
                     row.vicinity,
                     row.seconds,
-                    row.seconds / seconds
-                );
+                    filled.points,
+                    filled.seconds,
+                    row.seconds / filled.seconds
+                )?;
                 break;
             }
         }
@@ -184,31 +188,45 @@ fn rows_by_size() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The time over m and k.
-fn scaling() -> Result<(), Box<dyn Error>> {
-    println!("\n## Cost over m and k\n");
-    println!(
-        "A cap of 30 degrees of finer and finer spheres, with a narrow and a wide vicinity. The time over m k tends to a constant.\n"
-    );
-    println!("| m | k | seconds | nanoseconds / (m k) | |");
-    println!("| ---: | ---: | ---: | ---: | --- |");
-    for rows in [3, 6] {
-        for meridians in [30, 60, 120, 240] {
-            let cap = Cap::new(meridians, 30);
-            let (m, k, seconds) = cap.measure(cap.beta(rows))?;
-            let per_product = seconds / (m * k) as f64 * 1e9;
-            // A bar of one mark for each factor of the square root of ten from a tenth of a millisecond on.
-            let marks = (2.0 * (seconds * 1e4).log10()).round().max(0.0) as usize;
-            println!(
-                "| {m} | {k} | {seconds:.4} | {per_product:.0} | {} |",
-                "#".repeat(marks)
-            );
+/// The time over m, and over k.
+fn cost(page: &mut String, results: &Path) -> Result<()> {
+    page.push_str("\n## Cost over m and k\n\n![Time over m k](mls-cost.svg)\n\nCaps of one sphere. Over m: one hole of 30 degrees, with a wider and wider vicinity. Over k: wider and wider holes with three parallels of vicinity. Over both: finer and finer spheres. The time over m k tends to a constant; what is left where m k is small is the triangulation and the checks.\n\n| | m | k | seconds | nanoseconds / (m k) |\n| --- | ---: | ---: | ---: | ---: |\n");
+    let over_m = [2, 3, 4, 6, 8, 11, 15].map(|rows| (120, 30, rows));
+    let over_k = [9, 12, 15, 21, 30, 39, 45].map(|degrees| (120, degrees, 3));
+    let over_both = [24, 36, 60, 96, 144, 192, 240].map(|meridians| (meridians, 30, 3));
+    let mut lines = Vec::new();
+    for (name, caps) in [
+        ("over m", over_m),
+        ("over k", over_k),
+        ("over both", over_both),
+    ] {
+        let mut points = Vec::new();
+        for (meridians, degrees, rows) in caps {
+            let filled = Cap::new(meridians, degrees).fill(rows, RUNS)?;
+            let (m, k) = (rows * meridians, filled.points);
+            points.push(((m * k) as f64, filled.seconds));
+            let per_product = filled.seconds / (m * k) as f64 * 1e9;
+            writeln!(
+                page,
+                "| {name} | {m} | {k} | {:.4} | {per_product:.0} |",
+                filled.seconds
+            )?;
         }
+        lines.push(Line {
+            name: name.to_owned(),
+            points,
+        });
     }
-    Ok(())
+    plot(
+        &results.join("mls-cost.svg"),
+        "Processor time of a fill",
+        ["m k", "seconds"],
+        Scale::Logarithmic,
+        &lines,
+    )
 }
 
-/// A sphere of meridians and parallels as far apart, without a cap round its pole.
+/// A sphere without a cap round its pole.
 struct Cap {
     meridians: usize,
     mesh: TriMesh,
@@ -216,40 +234,10 @@ struct Cap {
 
 impl Cap {
     fn new(meridians: usize, degrees: usize) -> Self {
-        let rows = meridians / 2;
-        let first = rows * degrees / 180;
-        let at = |row: usize, i: usize| {
-            let (theta, phi) = (
-                TAU / 2.0 * row as f64 / rows as f64,
-                TAU * i as f64 / meridians as f64,
-            );
-            [
-                theta.sin() * phi.cos(),
-                theta.sin() * phi.sin(),
-                theta.cos(),
-            ]
-        };
-        let parallels = first..rows;
-        let mut positions: Vec<[f64; 3]> = parallels
-            .clone()
-            .flat_map(|row| (0..meridians).map(move |i| at(row, i)))
-            .collect();
-        positions.push([0.0, 0.0, -1.0]);
-        let mut triangles = Vec::new();
-        for row in parallels {
-            let v = |row: usize, i: usize| match row == rows {
-                true => ((rows - first) * meridians) as u32,
-                false => ((row - first) * meridians + i % meridians) as u32,
-            };
-            for i in 0..meridians {
-                triangles.push([v(row, i), v(row + 1, i), v(row, i + 1)]);
-                if row + 1 < rows {
-                    triangles.push([v(row, i + 1), v(row + 1, i), v(row + 1, i + 1)]);
-                }
-            }
+        Self {
+            meridians,
+            mesh: sphere_without_cap(meridians, degrees),
         }
-        let mesh = TriMesh::new(positions, triangles).expect("a sphere is a mesh");
-        Self { meridians, mesh }
     }
 
     /// The width of a vicinity of so many parallels, the rim's among them, in sampling steps.
@@ -267,17 +255,15 @@ impl Cap {
         (parallels as f64 - 0.5) * apart / step
     }
 
-    /// Points of the vicinity, samples and seconds.
-    fn measure(&self, beta: f64) -> Result<(usize, usize, f64), Box<dyn Error>> {
-        let step_over = self.beta(1) * 2.0; // one parallel in steps
-        let rows = (beta / step_over).ceil() as usize;
-        let options = options(&[("mls.beta", &beta.to_string()), ("mls.domain", "plane")])?;
-        let (report, after, seconds) = fill(&self.mesh, &Selection::default(), &options)?;
-        if report.holes.iter().any(|h| h.method != Some(Method::Mls)) {
+    /// Fills the hole by the plane with a vicinity of so many parallels.
+    fn fill(&self, parallels: usize, runs: usize) -> Result<Filled> {
+        let beta = self.beta(parallels).to_string();
+        let options = options(&[("mls.beta", &beta), ("mls.domain", "plane")])?;
+        let filled = fill(&self.mesh, &Selection::default(), &options, runs)?;
+        if filled.by(Method::Mls) != 1 {
             return Err("a cap was not filled by mls".into());
         }
-        let samples = after.positions().len() - self.mesh.positions().len();
-        Ok((rows * self.meridians, samples, seconds))
+        Ok(filled)
     }
 }
 
@@ -294,53 +280,73 @@ fn area([a, b, c]: [[f64; 3]; 3]) -> f64 {
     (s * (s - x) * (s - y) * (s - z)).max(0.0).sqrt()
 }
 
-fn options(parameters: &[(&str, &str)]) -> Result<FillOptions, holefill::Error> {
-    let mut options = FillOptions::default();
-    options.method = Method::Mls;
-    options.threads = 1;
-    for (name, value) in parameters {
-        options.set(name, value)?;
+/// The vertices alone, to a mesh, and its holes filled.
+fn from_points(page: &mut String, models: &Path) -> Result<()> {
+    page.push_str("\n## From points alone\n\nThe vertices of three models without their triangles, and moved along each axis by up to 1 % of the mean edge; then filled by `mls`, but for the two ends of the cylinder. More in [points](points.md).\n\n| model | noise | points | used | triangles | edges with more than two triangles | boundary loops, edges | the model's | seconds to the mesh | holes left |\n| --- | ---: | ---: | ---: | ---: | ---: | --- | --- | ---: | ---: |\n");
+    for (model, open) in [("bunny_natural", 0), ("mls_cap30", 0), ("cylinder_side", 2)] {
+        let case = Case::read(models, model)?;
+        let original = loop_sizes(&case.mesh);
+        for noise in [0.0, 0.01] {
+            let moved = moved(&case.mesh, noise);
+            let start = processor_time();
+            let (mesh, report) =
+                mesh_from_points(PointCloud::new(moved), &PointOptions::default(), &|| false)?;
+            let seconds = (processor_time() - start).as_secs_f64();
+            let selection = Selection {
+                keep_largest: open,
+                ..Selection::default()
+            };
+            let filled = fill(&mesh, &selection, &options(&[])?, 1)?;
+            let left = filled.report.count(HoleStatus::Failed);
+            writeln!(
+                page,
+                "| `{model}` | {} % | {} | {:.2} % | {} | {} | {} | {original} | {seconds:.2} | {left} |",
+                100.0 * noise,
+                report.points,
+                100.0 * report.used as f64 / report.points as f64,
+                report.triangles,
+                crowded_edges(&mesh),
+                loop_sizes(&mesh),
+            )?;
+        }
     }
-    Ok(options)
+    Ok(())
 }
 
-fn read(folder: &Path, model: &str) -> Result<(TriMesh, Selection), Box<dyn Error>> {
-    let data = io::read(folder.join(model).join("input.ply"))?;
-    let mesh = TriMesh::with_attributes(
-        data.positions,
-        data.triangles,
-        data.vertex_attributes,
-        data.face_attributes,
-    )?;
-    let text = std::fs::read_to_string(folder.join(model).join("meta.json"))?;
-    let meta: serde_json::Value = serde_json::from_str(&text)?;
-    let vertex = |v: &serde_json::Value| v.as_u64().and_then(|v| u32::try_from(v).ok());
-    let keep = meta["keep_loops"].as_array().into_iter().flatten();
-    let selection = Selection {
-        keep: keep
-            .filter_map(|l| Some([vertex(&l["edge"][0])?, vertex(&l["edge"][1])?]))
-            .collect(),
-        ..Selection::default()
+/// Each coordinate moved at random by up to a share of the mean edge.
+fn moved(mesh: &TriMesh, share: f64) -> Vec<[f64; 3]> {
+    let positions = mesh.positions();
+    let edges = || {
+        let triangles = mesh.triangles().iter();
+        triangles.flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
     };
-    Ok((mesh, selection))
+    let length = |[a, b]: [u32; 2]| distance(positions[a as usize], positions[b as usize]);
+    let mean = edges().map(length).sum::<f64>() / (3 * mesh.triangles().len()) as f64;
+    let mut random = Pcg64::new(0, 0);
+    let mut by = || share * mean * (2.0 * random.random::<f64>() - 1.0);
+    let moved = positions.iter().map(|p| p.map(|x| x + by()));
+    moved.collect()
 }
 
-/// The report, the filled mesh and the least seconds of filling.
-fn fill(
-    mesh: &TriMesh,
-    selection: &Selection,
-    options: &FillOptions,
-) -> Result<(FillReport, TriMesh, f64), holefill::Error> {
-    let boundary = BoundaryLoops::find(mesh);
-    let run = || -> Result<(FillReport, TriMesh), holefill::Error> {
-        let mut filled = mesh.clone();
-        let report = fill_holes(&mut filled, &boundary, selection, options, None)?;
-        Ok((report, filled))
-    };
-    let (report, filled) = run()?;
-    let mut least = report.fill_seconds;
-    for _ in 1..RUNS {
-        least = least.min(run()?.0.fill_seconds);
-    }
-    Ok((report, filled, least))
+/// Edges that more than two triangles share.
+fn crowded_edges(mesh: &TriMesh) -> usize {
+    let triangles = mesh.triangles().iter();
+    let mut edges: Vec<[u32; 2]> = triangles
+        .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
+        .map(|[a, b]| [a.min(b), a.max(b)])
+        .collect();
+    edges.sort_unstable();
+    edges
+        .chunk_by(|a, b| a == b)
+        .filter(|c| c.len() > 2)
+        .count()
+}
+
+/// The numbers of edges of the boundary loops, the largest first.
+fn loop_sizes(mesh: &TriMesh) -> String {
+    let loops = BoundaryLoops::find(mesh).loops;
+    let mut sizes: Vec<usize> = loops.iter().map(|l| l.edge_count()).collect();
+    sizes.sort_unstable_by(|a, b| b.cmp(a));
+    let sizes: Vec<String> = sizes.iter().map(usize::to_string).collect();
+    sizes.join(", ")
 }

@@ -59,6 +59,7 @@ pub use predict::grey::GreyOptions;
 pub use predict::hpde::options::{
     DeCrossover, DeMutation, HpdeOptions, HpdeProjection, HpdeSolver, HpdeTangents,
 };
+pub use predict::hpde::section_curve::{SectionCurve, evolve_section};
 pub use predict::mls::{MlsDomain, MlsOptions, MlsUnit};
 pub use predict::nurbs::NurbsOptions;
 pub use predict::surface::candidates::Candidate;

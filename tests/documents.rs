@@ -111,6 +111,21 @@ fn links(text: &str) -> Vec<&str> {
         .collect()
 }
 
+/// The headings of a page as links name them.
+fn headings(text: &str) -> Vec<String> {
+    let heading = |line: &str| {
+        let words = line.trim_start_matches('#').trim().to_lowercase();
+        let kept = words
+            .chars()
+            .filter(|&c| c.is_alphanumeric() || " -_".contains(c));
+        kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+    };
+    text.lines()
+        .filter(|line| line.starts_with('#'))
+        .map(heading)
+        .collect()
+}
+
 #[test]
 fn links_lead_to_files() {
     let mut pages = files(&root().join("docs"));
@@ -120,6 +135,7 @@ fn links_lead_to_files() {
         "CONTRIBUTING.md",
         "CHANGELOG.md",
         "compare/README.md",
+        "meshlab_plugin/README.md",
     ] {
         pages.push(root().join(page));
     }
@@ -127,8 +143,17 @@ fn links_lead_to_files() {
     for page in pages {
         let text = fs::read_to_string(&page).unwrap();
         for link in links(&text) {
-            let target = page.parent().unwrap().join(link);
+            let (file, place) = link.split_once('#').unwrap_or((link, ""));
+            let target = page.parent().unwrap().join(file);
             assert!(target.exists(), "{}: {link}", page.display());
+            if !place.is_empty() {
+                let places = headings(&fs::read_to_string(&target).unwrap());
+                assert!(
+                    places.iter().any(|p| p == place),
+                    "{}: {link}",
+                    page.display()
+                );
+            }
             count += 1;
         }
     }

@@ -1,16 +1,19 @@
 //! Measures the `holefill` program side by side with CGAL's hole filling (`cgal_fill`).
 //!
-//! `inputs` makes the large inputs, `run` measures both programs on them and on a folder of cases.
+//! `inputs` makes the large inputs, `run` measures both programs on them and on a folder of cases, `ablate` measures
+//! what each stage of the method `auto` is worth.
 
+mod ablation;
 mod deviation;
 mod inputs;
+mod job;
 mod judge;
 mod measure;
 mod ply;
 mod process;
 mod table;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
@@ -35,6 +38,36 @@ enum Command {
     },
     /// Measure both programs, print the table and check every target.
     Run(RunArgs),
+    /// Switch off the stages of `auto`, prescribe its candidates, and print both tables.
+    Ablate(AblateArgs),
+}
+
+#[derive(Args)]
+struct AblateArgs {
+    /// Folder of cases, each with `input.ply`, `truth.ply` and `meta.json`.
+    #[arg(long)]
+    cases: PathBuf,
+    /// The program built from `compare/CMakeLists.txt`; left out where it is missing.
+    #[arg(long, default_value = "compare/build/cgal_fill")]
+    cgal: PathBuf,
+    /// The holefill program.
+    #[arg(long, default_value = "target/release/holefill")]
+    holefill: PathBuf,
+    /// Where outputs and reports go.
+    #[arg(long, default_value = "compare/out")]
+    out: PathBuf,
+    /// Also write the tables to this file.
+    #[arg(long)]
+    markdown: Option<PathBuf>,
+    /// Only cases whose name contains this text.
+    #[arg(long)]
+    only: Option<String>,
+    /// Only cases with at most so many rim edges to fill.
+    #[arg(long, default_value_t = 1000)]
+    most_edges: u64,
+    /// Seconds after which a program is stopped.
+    #[arg(long, default_value_t = 200.0)]
+    limit_seconds: f64,
 }
 
 #[derive(Args)]
@@ -85,17 +118,38 @@ fn run(args: &RunArgs) -> Result<bool> {
     })?;
     let verdicts = table::verdicts(&results);
     let text = table::markdown(&results, &verdicts);
-    print!("{text}");
-    if let Some(path) = &args.markdown {
-        std::fs::write(path, &text).map_err(|e| format!("cannot write {}: {e}", path.display()))?;
-    }
+    show(&text, args.markdown.as_deref())?;
     Ok(verdicts.iter().all(|verdict| verdict.met == Some(true)))
+}
+
+fn ablate(args: &AblateArgs) -> Result<bool> {
+    let text = ablation::table(&ablation::Settings {
+        cases: args.cases.clone(),
+        holefill: args.holefill.clone(),
+        cgal: args.cgal.clone(),
+        out: args.out.clone(),
+        only: args.only.clone(),
+        most_edges: args.most_edges,
+        limit_seconds: args.limit_seconds,
+    })?;
+    show(&text, args.markdown.as_deref())?;
+    Ok(true)
+}
+
+/// Prints the text and writes it to a file if there is one.
+fn show(text: &str, file: Option<&Path>) -> Result<()> {
+    print!("{text}");
+    if let Some(path) = file {
+        std::fs::write(path, text).map_err(|e| format!("cannot write {}: {e}", path.display()))?;
+    }
+    Ok(())
 }
 
 fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Inputs { dir } => inputs::write_all(&dir).map(|()| true),
         Command::Run(args) => run(&args),
+        Command::Ablate(args) => ablate(&args),
     };
     match outcome {
         Ok(true) => ExitCode::SUCCESS,

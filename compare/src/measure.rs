@@ -1,11 +1,10 @@
 //! Runs both programs on every case and input, one process at a time, in turns.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
-use serde_json::Value;
-
+use crate::job::{Job, jobs, read_json};
 use crate::judge::{self, Score};
 use crate::{Result, process};
 
@@ -137,73 +136,6 @@ pub(crate) struct Results {
     pub(crate) cases: Vec<CaseRow>,
     pub(crate) inputs: Vec<InputRow>,
     pub(crate) build: Option<BuildRow>,
-}
-
-struct Job {
-    name: String,
-    folder: PathBuf,
-    keep: Vec<String>,
-    edges: u64,
-}
-
-impl Job {
-    fn read(folder: PathBuf) -> Result<Self> {
-        let meta = read_json(&folder.join("meta.json"))?;
-        let name = folder
-            .file_name()
-            .map(|name| name.to_string_lossy().into_owned());
-        let list = |key: &str| meta[key].as_array().cloned().unwrap_or_default();
-        let keep = list("keep_loops")
-            .iter()
-            .map(|l| match (l["edge"][0].as_u64(), l["edge"][1].as_u64()) {
-                (Some(v0), Some(v1)) => Ok(format!("{v0},{v1}")),
-                _ => Err(format!("{}: a loop to keep has no edge", folder.display()).into()),
-            })
-            .collect::<Result<_>>()?;
-        let edges = list("fill_loops")
-            .iter()
-            .filter_map(|l| l["n_edges"].as_u64())
-            .sum();
-        Ok(Self {
-            name: name.unwrap_or_default(),
-            folder,
-            keep,
-            edges,
-        })
-    }
-
-    fn input(&self) -> String {
-        self.folder.join("input.ply").display().to_string()
-    }
-
-    /// `--keep V0,V1` for every loop that stays open.
-    fn keep_args(&self) -> impl Iterator<Item = String> + '_ {
-        self.keep
-            .iter()
-            .flat_map(|edge| ["--keep".to_owned(), edge.clone()])
-    }
-}
-
-fn read_json(path: &Path) -> Result<Value> {
-    let text =
-        fs::read_to_string(path).map_err(|e| format!("cannot read {}: {e}", path.display()))?;
-    serde_json::from_str(&text).map_err(|e| format!("{}: {e}", path.display()).into())
-}
-
-fn jobs(dir: Option<&Path>, only: Option<&str>) -> Result<Vec<Job>> {
-    let Some(dir) = dir else {
-        return Ok(Vec::new());
-    };
-    let entries = fs::read_dir(dir).map_err(|e| format!("cannot read {}: {e}", dir.display()))?;
-    let mut folders = entries
-        .map(|entry| Ok(entry?.path()))
-        .collect::<Result<Vec<_>>>()?;
-    folders.retain(|folder| {
-        let name = folder.file_name().unwrap_or_default().to_string_lossy();
-        folder.join("meta.json").exists() && only.is_none_or(|text| name.contains(text))
-    });
-    folders.sort();
-    folders.into_iter().map(Job::read).collect()
 }
 
 fn median(mut values: Vec<f64>) -> Option<f64> {

@@ -14,7 +14,8 @@ pub(crate) struct Verdict {
     pub(crate) met: Option<bool>,
 }
 
-fn geometric_mean(values: &[f64]) -> Option<f64> {
+/// None of no values.
+pub(crate) fn geometric_mean(values: &[f64]) -> Option<f64> {
     let sum: f64 = values.iter().map(|v| v.ln()).sum();
     (!values.is_empty()).then(|| (sum / values.len() as f64).exp())
 }

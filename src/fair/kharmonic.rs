@@ -37,6 +37,8 @@ pub(crate) enum Order {
 
 /// Columns assembled between two questions whether to go on.
 const COLUMNS_PER_CHECK: usize = 1 << 11;
+/// Entries of a column from the diagonal down, with two rings round a vertex of degree six.
+const USUAL_COLUMN: usize = 10;
 
 /// Moves the interior vertices of `surface` to the minimum of the energy. `solver` knows whom to ask whether to
 /// go on.
@@ -200,11 +202,14 @@ impl<'a> Operator<'a> {
             fixed[v] -= diagonal * p;
         }
         let mut scratch = Scratch::new(domain.vertex_count());
+        let interior = domain.patch_count - domain.rim_count;
         let mut matrix = SymmetricMatrix {
-            column_starts: vec![0],
-            ..SymmetricMatrix::default()
+            column_starts: Vec::with_capacity(interior + 1),
+            rows: Vec::with_capacity(USUAL_COLUMN * interior),
+            values: Vec::with_capacity(USUAL_COLUMN * interior),
         };
-        let mut right_side = Vec::with_capacity(domain.patch_count - domain.rim_count);
+        matrix.column_starts.push(0);
+        let mut right_side = Vec::with_capacity(interior);
         let mut column: Vec<(u32, f64)> = Vec::new();
         for v in domain.rim_count..domain.patch_count {
             if v.is_multiple_of(COLUMNS_PER_CHECK) {
@@ -228,10 +233,9 @@ impl<'a> Operator<'a> {
                     .map(|&i| (i, scratch.c.values[i as usize])),
             );
             column.sort_unstable_by_key(|&(i, _)| i);
-            for &(i, value) in &column {
-                matrix.rows.push(i - domain.rim_count as u32);
-                matrix.values.push(value);
-            }
+            let first = domain.rim_count as u32;
+            matrix.rows.extend(column.iter().map(|&(i, _)| i - first));
+            matrix.values.extend(column.iter().map(|&(_, value)| value));
             matrix.column_starts.push(matrix.rows.len() as u32);
         }
         Ok((matrix, right_side))

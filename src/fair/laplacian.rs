@@ -158,6 +158,9 @@ impl Domain {
                 self.areas[t[k] as usize] += area / 3.0;
             }
         }
+        // Nearly every edge has two triangles.
+        self.entries.reserve(half_edges.len() / 2 + self.rim_count);
+        self.row_starts.reserve(count + 1);
         self.row_starts.push(0);
         for v in 0..count {
             if v % ROWS_PER_CHECK == ROWS_PER_CHECK - 1 {

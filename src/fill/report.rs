@@ -104,7 +104,7 @@ pub struct HoleReport {
 pub struct FillReport {
     /// One entry for each boundary loop, in the order of [`crate::BoundaryLoops::loops`].
     pub holes: Vec<HoleReport>,
-    /// Time spent to index the mesh for the intersection tests, in seconds.
+    /// Time spent to index the mesh for the intersection tests, and to give back the index, in seconds.
     pub index_seconds: f64,
     /// Time spent to fill, in seconds, without the index.
     pub fill_seconds: f64,

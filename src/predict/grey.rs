@@ -9,7 +9,7 @@
 //! `O(1)` per predicted point. Not guaranteed: that the two sides meet; what they miss each other by is spread over
 //! the section.
 
-use super::hpde::{BasePoint, HpdeOptions, Outside, Predicted, Prepared};
+use super::hpde::{BasePoint, HpdeOptions, Known, Outside, Predicted, Prepared};
 use crate::error::{Result, proceed_unless};
 use crate::math::Vec3;
 use crate::patch::{HoleShape, PatchSurface};
@@ -57,7 +57,7 @@ pub(crate) fn predict(
             proceed_unless(interrupted)?;
             let ends = [&base[section.pair.first], &base[section.pair.second]];
             let step = section.step();
-            let from = ends.map(|end| outside.walk(end, section, step, options.series + 1));
+            let from = ends.map(|end| outside.walk(end, section, step, options.series));
             all.push(continued(section, &from));
         }
         Ok(all)
@@ -65,21 +65,16 @@ pub(crate) fn predict(
     super::hpde::patch_along(hole, hpde, most_points, &curves, interrupted)
 }
 
-/// The points of a section: the first half continues the known points before the first end, the second half those
+/// The points of a section: the first half continues the known surface before the first end, the second half that
 /// before the second one.
-fn continued(section: &Prepared, known: &[Vec<Vec3>; 2]) -> Vec<Vec3> {
+fn continued(section: &Prepared, known: &[Vec<Known>; 2]) -> Vec<Vec3> {
     let m = section.count;
-    let in_plane = |p: &Vec3| {
-        let d = p - section.origin;
-        [d.dot(&section.x), d.dot(&section.y)]
-    };
     let [near, far] = [0, 1].map(|side| {
-        let outer: Vec<[f64; 2]> = known[side].iter().rev().map(in_plane).collect();
         let end = [section.length * f64::from(side as u8), 0.0];
         let angle = section.arcs[side].angle;
-        // The direction inwards along the tangent, if too little is known.
         let tangent = if side == 0 { angle } else { PI - angle };
-        continue_line(&outer, end, tangent, section.step(), m + 1)
+        let turns = turns(section, end, tangent, &known[side]);
+        continue_line(&GreyModel::fit(&turns), end, tangent, section.step(), m + 1)
     });
     // Both lines have m points and the other end; the gap is what each misses that end by.
     let miss = |line: &[[f64; 2]], end: [f64; 2]| {
@@ -103,33 +98,41 @@ fn continued(section: &Prepared, known: &[Vec<Vec3>; 2]) -> Vec<Vec3> {
         .collect()
 }
 
-/// Continues the line through `outer`, which ends next to `end`, from `end` on by `count` steps.
+/// The angles by which the known surface turns from step to step in the section plane, inwards: the last one is that
+/// up to the rim at `end`, where the tangent has the direction `tangent`.
+fn turns(section: &Prepared, end: [f64; 2], tangent: f64, known: &[Known]) -> Vec<f64> {
+    let mut last = section.origin + section.x * end[0] + section.y * end[1];
+    let mut directions = vec![tangent];
+    for place in known {
+        let along = place.normal.cross(&section.ahead);
+        let inwards = along.dot(&(last - place.point)).signum() * along;
+        directions.push(inwards.dot(&section.y).atan2(inwards.dot(&section.x)));
+        last = place.point;
+    }
+    directions
+        .windows(2)
+        .map(|w| wrapped(w[0] - w[1]))
+        .rev()
+        .collect()
+}
+
+/// `count` points that continue a line from `end` on, each `step` from the one before: the tangent there has the
+/// direction `tangent`, and turns by what `model` predicts from each point to the next one.
 fn continue_line(
-    outer: &[[f64; 2]],
+    model: &GreyModel,
     end: [f64; 2],
-    tangent: f64,
+    mut tangent: f64,
     step: f64,
     count: usize,
 ) -> Vec<[f64; 2]> {
-    let points: Vec<[f64; 2]> = outer.iter().copied().chain([end]).collect();
-    let directions: Vec<f64> = points
-        .windows(2)
-        .map(|w| (w[1][1] - w[0][1]).atan2(w[1][0] - w[0][0]))
-        .collect();
-    let turns: Vec<f64> = directions
-        .windows(2)
-        .map(|w| wrapped(w[1] - w[0]))
-        .collect();
-    let model = GreyModel::fit(&turns);
-    let mut direction = directions.last().copied().unwrap_or(tangent);
     let mut at = end;
     (0..count)
         .map(|k| {
-            direction += model.predict(k);
-            at = [
-                at[0] + step * direction.cos(),
-                at[1] + step * direction.sin(),
-            ];
+            let turn = model.predict(k);
+            // The chord of an arc has the mean direction of its ends.
+            let (sin, cos) = (tangent + turn / 2.0).sin_cos();
+            tangent += turn;
+            at = [at[0] + step * cos, at[1] + step * sin];
             at
         })
         .collect()
@@ -240,15 +243,32 @@ mod tests {
 
     #[test]
     fn a_circle_is_continued_as_a_circle() {
+        // The section ends at the top of a unit circle round the origin, and goes on to the right.
         let at = |k: i32| {
             let angle = 0.1 * f64::from(k);
-            [angle.sin(), angle.cos()]
+            Vec3::new(angle.sin(), angle.cos(), 0.0)
         };
-        let outer: Vec<[f64; 2]> = (-6..0).map(at).collect();
+        let section = Prepared {
+            origin: at(0),
+            x: Vec3::x(),
+            y: Vec3::y(),
+            ahead: Vec3::z(),
+            ..Prepared::default()
+        };
+        let known: Vec<Known> = (1..=5)
+            .map(|k| Known {
+                point: at(-k),
+                normal: at(-k),
+            })
+            .collect();
+        let turns = turns(&section, [0.0; 2], 0.0, &known);
+        assert_eq!(turns.len(), 5);
+        assert!(turns.iter().all(|t| (t + 0.1).abs() < 1e-12), "{turns:?}");
         let step = 2.0 * 0.05_f64.sin();
-        let line = continue_line(&outer, at(0), 0.0, step, 20);
+        let line = continue_line(&GreyModel::fit(&turns), [0.0; 2], 0.0, step, 20);
         for (k, p) in (1..).zip(&line) {
-            assert!((p[0] - at(k)[0]).hypot(p[1] - at(k)[1]) < 1e-9);
+            let expected = at(k) - at(0);
+            assert!((p[0] - expected.x).hypot(p[1] - expected.y) < 1e-9);
         }
     }
 }

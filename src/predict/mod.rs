@@ -3,7 +3,6 @@
 pub(crate) mod creases;
 pub(crate) mod grey;
 pub(crate) mod hpde;
-mod jet;
 pub(crate) mod mls;
 pub(crate) mod nurbs;
 pub(crate) mod surface;

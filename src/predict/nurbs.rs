@@ -57,9 +57,9 @@ pub(crate) fn predict(
                 ends.map(|end| outside.walk(end, section, section.step(), options.layers));
             let second = section.origin + section.x * section.length;
             let inner = near.len();
-            let mut known: Vec<Vec3> = near.into_iter().rev().collect();
+            let mut known: Vec<Vec3> = near.iter().rev().map(|k| k.point).collect();
             known.extend([section.origin, second]);
-            known.extend(far);
+            known.extend(far.iter().map(|k| k.point));
             curves.push(Curve::through(&known, inner));
         }
         Ok(sections

@@ -186,8 +186,9 @@ impl Task<'_> {
     fn sweep(&self, is_sound: bool) -> SelfIntersections {
         let whole = self.boxes.iter().fold(Aabb::empty(), |all, b| all.union(b));
         let axis = (whole.hi - whole.lo).imax();
-        let mut swept: Vec<(Aabb, usize)> = self.boxes.iter().copied().zip(0..).collect();
-        swept.sort_unstable_by(|(a, i), (b, j)| a.lo[axis].total_cmp(&b.lo[axis]).then(i.cmp(j)));
+        let mut order: Vec<(f64, usize)> = self.boxes.iter().map(|b| b.lo[axis]).zip(0..).collect();
+        order.sort_unstable_by(|(a, i), (b, j)| a.total_cmp(b).then(i.cmp(j)));
+        let swept: Vec<(Aabb, usize)> = order.iter().map(|&(_, i)| (self.boxes[i], i)).collect();
         let separators = self.separators(0..self.boxes.len());
         let mut pairs = Vec::new();
         let unproved = if is_sound { &[] } else { &swept[..] };

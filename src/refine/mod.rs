@@ -17,7 +17,5 @@ mod robustness;
 #[cfg(test)]
 mod validate;
 
-#[allow(unused_imports)] // until the pipeline uses them
 pub(crate) use density::{grading, rim_sizes};
-#[allow(unused_imports)]
-pub(crate) use isotropic::{RefineOptions, RefineReport, refine};
+pub(crate) use isotropic::{RefineOptions, refine};

@@ -5,6 +5,7 @@
 //! blended into the rim. What comes out passes the gates below or is not used: then the simpler methods follow.
 
 use super::creases::Creases;
+use super::hpde;
 use super::staircase::Staircase;
 use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::fair::kharmonic::extend_from_rim;
@@ -20,6 +21,7 @@ use crate::predict::surface::choice::Score;
 use crate::predict::surface::jets::Band;
 use crate::predict::surface::samples::SampledBand;
 use crate::predict::surface::{Implicit, choice, march, tip};
+use crate::refine::rim_sizes;
 
 /// Rings of triangles round the hole that are read.
 pub(super) const RINGS: u32 = choice::RINGS;
@@ -147,9 +149,11 @@ impl<'a> Auto<'a> {
             interrupted: self.interrupted,
         };
         let faired = staircase.patch(Method::FairC1)?;
-        let result = marcher.patch(&faired, staircase);
-        match result {
+        let (_, sizes) = staircase.refined()?;
+        let first = marcher.patch(faired.clone(), sizes, &faired, staircase);
+        match first {
             Err(error) if error.kind() == ErrorKind::Geometry && !is_noisy => {
+<<<<<<< HEAD
                 let start = staircase.patch(Method::FairC2)?;
                 marcher
                     .patch_from(&start, &faired, staircase)
@@ -157,9 +161,38 @@ impl<'a> Auto<'a> {
                         ErrorKind::Cancelled => second,
                         _ => error,
                     })
+=======
+                match self.march_again(&marcher, &faired, staircase) {
+                    Err(other) if other.kind() == ErrorKind::Geometry => Err(error),
+                    done => done,
+                }
+>>>>>>> main
             }
-            other => other,
+            done => done,
         }
+    }
+
+    /// The patch on the predicted surface where the march from the faired patch failed: from one with common
+    /// curvature, which rises higher over a cap that is more than half a sphere, or from one that is swept across
+    /// the hole, which follows a rim that winds round a tube where a faired patch cuts through it.
+    fn march_again(
+        &self,
+        marcher: &Marcher<'_>,
+        faired: &PatchSurface,
+        staircase: &mut Staircase<'_>,
+    ) -> Result<PatchSurface> {
+        let start = staircase.patch(Method::FairC2)?;
+        let (_, sizes) = staircase.refined()?;
+        match marcher.patch(start, sizes, faired, staircase) {
+            Err(error) if error.kind() == ErrorKind::Geometry => {}
+            done => return done,
+        }
+        let swept = hpde::patch(self.hole, self.options, self.interrupted)?;
+        let mut sizes = rim_sizes(&swept, &self.hole.edge_lengths)?;
+        for size in &mut sizes {
+            *size *= self.options.density;
+        }
+        marcher.patch(swept, sizes, faired, staircase)
     }
 }
 
@@ -247,19 +280,15 @@ pub(super) struct Marcher<'a> {
 }
 
 impl Marcher<'_> {
-    fn patch(&self, faired: &PatchSurface, staircase: &mut Staircase<'_>) -> Result<PatchSurface> {
-        self.patch_from(faired, faired, staircase)
-    }
-
-    /// Marches from `start` and checks the result against the faired patch.
-    pub(super) fn patch_from(
+    /// Marches from `patch`, whose vertices (or those of its rim) have the target edge lengths `sizes`, and checks the
+    /// result against the faired patch.
+    pub(super) fn patch(
         &self,
-        start: &PatchSurface,
+        mut patch: PatchSurface,
+        mut sizes: Vec<f64>,
         faired: &PatchSurface,
-        staircase: &mut Staircase<'_>,
+        staircase: &Staircase<'_>,
     ) -> Result<PatchSurface> {
-        let mut patch = start.clone();
-        let (_, mut sizes) = staircase.refined()?;
         let rim_count = patch.rim_count;
         let interior = patch.points.len() - rim_count;
         let finer = if self.is_tip && interior < FEWEST_INTERIOR {

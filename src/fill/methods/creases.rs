@@ -106,7 +106,8 @@ impl Creases<'_> {
             is_tip: false,
             interrupted: self.interrupted,
         };
-        let filled = marcher.patch_from(&start, &start, &mut staircase)?;
+        let (_, sizes) = staircase.refined()?;
+        let filled = marcher.patch(start.clone(), sizes, &start, &staircase)?;
         let inner = patch.points.len() as u32;
         let count = filled.rim_count as u32;
         let number = |v: u32| match v.checked_sub(count) {

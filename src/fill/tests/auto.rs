@@ -30,6 +30,16 @@ fn windows_in_tori_come_back() {
     assert!(farthest < 2e-3, "{farthest}");
 }
 
+/// The tube is gone over 50 degrees but for a bridge on the inner side: a faired patch cuts through the tube.
+#[test]
+fn a_gap_that_winds_round_the_tube_of_a_torus_comes_back() {
+    let is_cut = |c: &[f64; 3]| c[1].atan2(c[0]).abs() < 0.44 && c[0].hypot(c[1]) > 1.25;
+    let arrays = fixtures::torus(32, 64).cut(|c| is_cut(&c));
+    let distance = |p: &Vec3| ((p.xy().norm() - 2.0).hypot(p.z) - 1.0).abs();
+    let (_, farthest) = chosen_and_farthest(&arrays, distance);
+    assert!(farthest < 0.02, "{farthest}");
+}
+
 #[test]
 fn windows_in_saddles_come_back() {
     let height = |x: f64, y: f64| 0.02 * ((x - 12.0).powi(2) - (y - 12.0).powi(2));

@@ -21,8 +21,10 @@ const MOST_INDIVIDUALS: usize = 42;
 /// Individuals that `rand/2` needs to choose five different ones besides the parent.
 const FEWEST_INDIVIDUALS: usize = 6;
 
-/// The first individuals lie round the start of equation 16, this part of the way to the arcs.
-const INITIAL_SPREAD: f64 = 0.1;
+/// The first individuals lie round the start of equation 16, at most this part of the distance of the arcs away. Twice
+/// as far, and the errors of some seeds are more than 5 % from that of the default one: with the published `CR` the
+/// search stalls where no single height can improve, and where that is depends on where it began.
+const INITIAL_SPREAD: f64 = 0.05;
 
 /// The population has converged when its objectives differ by less than this part of the best one.
 const CONVERGED: f64 = 1e-3;
@@ -37,7 +39,6 @@ pub(super) struct Heights {
     pub(super) values: Vec<f64>,
     /// Largest turn between consecutive edges of the section, in radians: the objective of equation 14. First that of
     /// the initial population, then after each generation.
-    #[cfg_attr(not(test), allow(dead_code))]
     pub(super) history: Vec<f64>,
 }
 
@@ -307,21 +308,25 @@ mod tests {
     fn every_variant_improves_within_the_bounds() {
         let profile = section(9);
         for (mutation, crossover) in VARIANTS {
+            // In the default number of generations chance decides how much is gained; in this many all seeds gain.
             let options = HpdeOptions {
                 mutation,
                 crossover,
+                generations: 300,
                 ..HpdeOptions::default()
             };
-            let found = run(&options, 1);
-            for (j, y) in found.values.iter().enumerate() {
-                assert!(profile.lower[j] <= *y && *y <= profile.upper[j]);
+            for seed in 0..20 {
+                let found = run(&options, seed);
+                for (j, y) in found.values.iter().enumerate() {
+                    assert!(profile.lower[j] <= *y && *y <= profile.upper[j]);
+                }
+                assert!(found.history.windows(2).all(|w| w[1] <= w[0]));
+                let (first, last) = (found.history[0], found.history[found.history.len() - 1]);
+                assert!(last < 0.95 * first, "{mutation:?} {crossover:?} {seed}");
+                // The best objective is that of the heights.
+                let again = Individual::new(&profile, found.values).objective;
+                assert!((again - last).abs() < 1e-12);
             }
-            assert!(found.history.windows(2).all(|w| w[1] <= w[0]));
-            let (first, last) = (found.history[0], found.history[found.history.len() - 1]);
-            assert!(last < 0.95 * first, "{mutation:?} {crossover:?}");
-            // The best objective is that of the heights.
-            let again = Individual::new(&profile, found.values).objective;
-            assert!((again - last).abs() < 1e-12);
         }
     }
 

@@ -18,16 +18,17 @@ mod optimize;
 pub(crate) mod options;
 mod outside;
 mod rim;
+pub(crate) mod section_curve;
 mod sections;
 mod segmentation;
 mod smoothing;
 
 pub(crate) use base_points::BasePoint;
 pub(crate) use options::HpdeOptions;
-pub(crate) use outside::Outside;
+pub(crate) use outside::{Known, Outside};
 pub(crate) use sections::{Predicted, Prepared};
 
-use super::jet::rim_normals;
+use super::surface::jets::Band;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::Vec3;
 use crate::patch::{HoleShape, PatchSurface};
@@ -155,7 +156,14 @@ fn read_rim(hole: &HoleShape, options: &HpdeOptions) -> Result<Rim> {
     }
     let normals = match options.tangents {
         HpdeTangents::Chord => None,
-        HpdeTangents::Jet => Some(rim_normals(&seen)),
+        HpdeTangents::Jet => {
+            let band = Band::new(&seen);
+            let rim = 0..seen.points.len() as u32;
+            Some(
+                rim.map(|v| band.interpolating_normal(v))
+                    .collect::<Vec<Vec3>>(),
+            )
+        }
     };
     let in_order = |values: &[Vec3]| -> Vec<Vec3> {
         let polygon = seen.polygon.iter();

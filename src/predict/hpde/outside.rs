@@ -5,15 +5,27 @@
 
 use super::base_points::BasePoint;
 use super::sections::Prepared;
-use crate::math::Vec3;
+use crate::math::{Vec3, unit};
 use crate::patch::HoleShape;
+use crate::predict::surface::jets::Band;
 
 /// Triangles that a walk passes at most for each step that is asked for: more, and they are slivers.
 const TRIANGLES_PER_STEP: usize = 8;
 
+/// A place on the known surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Known {
+    pub(crate) point: Vec3,
+    /// Unit normal, interpolated between those at vertices: facets turn only at their edges.
+    pub(crate) normal: Vec3,
+}
+
 /// The known triangles round a hole, ready to be walked through.
 pub(crate) struct Outside<'a> {
     hole: &'a HoleShape,
+    points: Vec<Vec3>,
+    /// Unit normals at the vertices.
+    normals: Vec<Vec3>,
     /// Directed edges with the vertex opposite to them, sorted.
     edges: Vec<(u32, u32, u32)>,
 }
@@ -27,13 +39,29 @@ impl<'a> Outside<'a> {
             .flat_map(|&[a, b, c]| [(a, b, c), (b, c, a), (c, a, b)])
             .collect();
         edges.sort_unstable();
-        Self { hole, edges }
+        let band = Band::new(hole);
+        let mut normals = band.triangle_normals.clone();
+        // Those of triangles would lean to one side at the rim.
+        for v in 0..hole.points.len() as u32 {
+            normals[v as usize] = band.interpolating_normal(v);
+        }
+        Self {
+            hole,
+            points: band.points,
+            normals,
+            edges,
+        }
     }
 
     fn point(&self, v: u32) -> Vec3 {
-        match (v as usize).checked_sub(self.hole.points.len()) {
-            Some(outer) => self.hole.surroundings.points[outer],
-            None => self.hole.points[v as usize],
+        self.points[v as usize]
+    }
+
+    fn between(&self, a: u32, b: u32, share: f64) -> Known {
+        let normal = |v: u32| self.normals[v as usize];
+        Known {
+            point: self.point(a).lerp(&self.point(b), share),
+            normal: normal(a).lerp(&normal(b), share),
         }
     }
 
@@ -43,7 +71,7 @@ impl<'a> Outside<'a> {
         found.map(|e| e.2)
     }
 
-    /// Points of the surface in the section's plane at the distances `step`, `2 step`, … from its base point `start`,
+    /// Places of the surface in the section's plane at the distances `step`, `2 step`, … from its base point `start`,
     /// `count` of them, or fewer if the known triangles end before or the plane leaves them at once.
     pub(crate) fn walk(
         &self,
@@ -51,13 +79,16 @@ impl<'a> Outside<'a> {
         section: &Prepared,
         step: f64,
         count: usize,
-    ) -> Vec<Vec3> {
+    ) -> Vec<Known> {
         let m = self.hole.polygon.len();
         let side = |p: Vec3| (p - start.position).dot(&section.ahead);
         // The known triangle has the rim's edge the other way round.
         let mut from = self.hole.polygon[(start.edge + 1) % m];
         let mut to = self.hole.polygon[start.edge];
-        let mut last = start.position;
+        let mut last = Known {
+            point: start.position,
+            normal: start.normal,
+        };
         let mut found = Vec::with_capacity(count);
         // How much of the next step is done.
         let mut done = 0.0;
@@ -76,11 +107,15 @@ impl<'a> Outside<'a> {
             if !(0.0..=1.0).contains(&share) {
                 break;
             }
-            let next = self.point(p).lerp(&self.point(q), share);
-            let length = (next - last).norm();
+            let next = self.between(p, q, share);
+            let length = (next.point - last.point).norm();
             let mut at = step - done;
             while at <= length && found.len() < count {
-                found.push(last.lerp(&next, at / length));
+                let share = at / length;
+                found.push(Known {
+                    point: last.point.lerp(&next.point, share),
+                    normal: unit(last.normal.lerp(&next.normal, share)),
+                });
                 at += step;
             }
             if found.len() == count {
@@ -158,7 +193,8 @@ mod tests {
     #[test]
     fn a_walk_follows_the_surface_at_equal_steps() {
         let hole = sheet(|x, _| 0.5 * x);
-        let rim = Rim::new(hole.points.clone(), vec![Vec3::z(); 16], None, 1.0);
+        let normal = Vec3::new(-0.5, 0.0, 1.0).normalize();
+        let rim = Rim::new(hole.points.clone(), vec![normal; 16], None, 1.0);
         let base = base_points(&rim, 0.7);
         let outside = Outside::new(&hole);
         let mut count = 0;
@@ -179,7 +215,8 @@ mod tests {
             assert_eq!(walked.len(), 5);
             for (k, p) in (1..).zip(&walked) {
                 let expected = b.position - Vec3::y() * 0.6 * f64::from(k);
-                assert!((p - expected).norm() < 1e-9, "{p} {expected}");
+                assert!((p.point - expected).norm() < 1e-9, "{p:?} {expected}");
+                assert!((p.normal - normal).norm() < 1e-9, "{p:?}");
             }
             count += 1;
         }

@@ -9,7 +9,7 @@ const SINGULAR: f64 = 1e-12;
 
 /// A directed line.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Axis {
+pub(crate) struct Axis {
     pub(super) origin: Vec3,
     /// Of length one.
     pub(super) direction: Vec3,
@@ -39,11 +39,57 @@ impl Axis {
     }
 }
 
+/// A surface of revolution as a point sees it: its distance function there, to second order.
+pub(super) struct Revolved {
+    /// From the origin of the axis to the point.
+    pub(super) arm: Vec3,
+    pub(super) distance: f64,
+    pub(super) normal: Vec3,
+    /// The direction of the circle through the point, and how fast the normal turns along it.
+    pub(super) along: Vec3,
+    pub(super) turn_along: f64,
+    /// The direction of the meridian there, and how fast the normal turns along it.
+    pub(super) meridian: Vec3,
+    pub(super) turn_meridian: f64,
+}
+
+impl Revolved {
+    /// How fast distance and normal change when the axis turns as [`Axis::turned`] says, and when it is shifted in
+    /// either direction across and along itself.
+    pub(super) fn slopes(&self, across: &[Vec3; 2], direction: &Vec3) -> [(f64, Vec3); 5] {
+        let [u, v] = across;
+        [
+            self.when_turned(v),
+            self.when_turned(&-u),
+            self.when_moved(u),
+            self.when_moved(v),
+            self.when_moved(direction),
+        ]
+    }
+
+    /// The surface moves by `shift`, seen from a point that rests.
+    fn when_moved(&self, shift: &Vec3) -> (f64, Vec3) {
+        let bend = self.turn_along * self.along.dot(shift) * self.along
+            + self.turn_meridian * self.meridian.dot(shift) * self.meridian;
+        (-self.normal.dot(shift), -bend)
+    }
+
+    fn when_turned(&self, rotation: &Vec3) -> (f64, Vec3) {
+        let (distance, normal) = self.when_moved(&rotation.cross(&self.arm));
+        (distance, normal + rotation.cross(&self.normal))
+    }
+}
+
 /// Two unit vectors that make a right-handed frame with `direction`.
 pub(super) fn across(direction: &Vec3) -> [Vec3; 2] {
     let least = direction.iamin();
     let u = unit(direction.cross(&Vec3::ith(least, 1.0)));
     [u, direction.cross(&u)]
+}
+
+/// `1 / length`; zero where a surface has its focus and no direction counts.
+pub(super) fn inverse(length: f64) -> f64 {
+    if length > 0.0 { length.recip() } else { 0.0 }
 }
 
 /// Eigenvectors of a symmetric matrix, that of the smallest eigenvalue first.

@@ -1,10 +1,10 @@
 //! Circular cones.
 
 use super::axis::{
-    Axis, axis_of_revolution, covariance_of_normals, eigenvectors, scatter_of_normals,
-    solve_symmetric,
+    Axis, Revolved, axis_of_revolution, covariance_of_normals, eigenvectors, inverse,
+    scatter_of_normals, solve_symmetric,
 };
-use super::{Fitted, Primitive, Shape, fit};
+use super::{Fitted, Linear, Primitive, Shape, fit};
 use crate::math::Vec3;
 use crate::predict::surface::Sample;
 use crate::predict::surface::frame::Fit;
@@ -66,6 +66,28 @@ impl Primitive<6> for Cone {
             half_angle: self.half_angle + step[5],
             side: self.side,
         }
+    }
+
+    fn axis(&self) -> &Axis {
+        &self.axis
+    }
+
+    fn linearize(&self, across: &[Vec3; 2], p: &Vec3) -> Linear<6> {
+        let (height, distance, away) = self.axis.locate(p);
+        let (sin, cos) = self.half_angle.sin_cos();
+        let generator = cos * self.axis.direction + sin * away;
+        let here = Revolved {
+            arm: p - self.axis.origin,
+            distance: self.side * (distance * cos - height * sin),
+            normal: self.side * (cos * away - sin * self.axis.direction),
+            along: self.axis.direction.cross(&away),
+            turn_along: self.side * cos * inverse(distance),
+            meridian: generator,
+            turn_meridian: 0.0,
+        };
+        let [a, b, c, d, e] = here.slopes(across, &self.axis.direction);
+        let opened = -self.side * (distance * sin + height * cos);
+        Linear::new(&here, [a, b, c, d, e, (opened, -self.side * generator)])
     }
 }
 

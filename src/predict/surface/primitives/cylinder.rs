@@ -1,7 +1,7 @@
 //! Circular cylinders.
 
-use super::axis::{Axis, eigenvectors, scatter_of_normals, solve_symmetric};
-use super::{Fitted, Primitive, Shape, fit};
+use super::axis::{Axis, Revolved, eigenvectors, inverse, scatter_of_normals, solve_symmetric};
+use super::{Fitted, Linear, Primitive, Shape, fit};
 use crate::math::Vec3;
 use crate::predict::surface::Sample;
 use crate::predict::surface::frame::Fit;
@@ -49,6 +49,26 @@ impl Primitive<5> for Cylinder {
             axis,
             radius: self.radius + step[4],
         }
+    }
+
+    fn axis(&self) -> &Axis {
+        &self.axis
+    }
+
+    fn linearize(&self, across: &[Vec3; 2], p: &Vec3) -> Linear<5> {
+        let (_, distance, away) = self.axis.locate(p);
+        let sign = self.radius.signum();
+        let here = Revolved {
+            arm: p - self.axis.origin,
+            distance: sign * distance - self.radius,
+            normal: sign * away,
+            along: self.axis.direction.cross(&away),
+            turn_along: sign * inverse(distance),
+            meridian: self.axis.direction,
+            turn_meridian: 0.0,
+        };
+        let [a, b, c, d, _] = here.slopes(across, &self.axis.direction);
+        Linear::new(&here, [a, b, c, d, (-1.0, Vec3::zeros())])
     }
 }
 

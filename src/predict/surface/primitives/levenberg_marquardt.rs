@@ -5,14 +5,11 @@
 
 use super::Primitive;
 use crate::predict::surface::Sample;
-use nalgebra::{SMatrix, SVector, Vector4};
+use nalgebra::{SMatrix, SVector};
 
 /// Weight of a difference of normals against a distance in units of the samples' size: normals of triangles
 /// and jets are noisier than positions by about that.
 const NORMAL_WEIGHT: f64 = 0.3;
-
-/// Half the width of the difference quotients, whose error is then about 1e-10.
-const PROBE: f64 = 1e-5;
 
 /// The damping at the start, and its range; it falls after a success and rises after a failure.
 const FIRST_DAMPING: f64 = 1e-3;
@@ -20,9 +17,10 @@ const DAMPING_FALL: f64 = 0.2;
 const DAMPING_RISE: f64 = 5.0;
 const MOST_DAMPING: f64 = 1e9;
 
-/// A step that is shorter than this, or lowers the cost by less than this part, is the last one.
+/// A step that is shorter than this, or lowers the cost by less than this part, is the last one: what is left to
+/// gain then moves the surface by about 1e-5 of the residuals.
 const SETTLED_STEP: f64 = 1e-12;
-const SETTLED_FALL: f64 = 1e-12;
+const SETTLED_FALL: f64 = 1e-10;
 
 /// The longest step in any degree of freedom: the samples have the size one.
 const LONGEST_STEP: f64 = 2.0;
@@ -78,17 +76,12 @@ pub(super) fn improve<const D: usize, P: Primitive<D>>(
     Some(Progress { cost, primitive })
 }
 
-fn residual<const D: usize, P: Primitive<D>>(primitive: &P, sample: &Sample) -> Vector4<f64> {
-    let (distance, normal) = primitive.distance_and_normal(&sample.point);
-    let difference = NORMAL_WEIGHT * (normal - sample.normal);
-    Vector4::new(distance, difference.x, difference.y, difference.z)
-}
-
 fn cost_of<const D: usize, P: Primitive<D>>(primitive: &P, samples: &[Sample]) -> f64 {
-    samples
-        .iter()
-        .map(|s| residual(primitive, s).norm_squared())
-        .sum()
+    let cost = |s: &Sample| {
+        let (distance, normal) = primitive.distance_and_normal(&s.point);
+        distance * distance + NORMAL_WEIGHT * NORMAL_WEIGHT * (normal - s.normal).norm_squared()
+    };
+    samples.iter().map(cost).sum()
 }
 
 /// `JᵀJ` and `Jᵀr` of the residuals `r` and their derivatives `J`.
@@ -96,20 +89,29 @@ fn normal_equations<const D: usize, P: Primitive<D>>(
     primitive: &P,
     samples: &[Sample],
 ) -> (SMatrix<f64, D, D>, SVector<f64, D>) {
-    let probes: [(P, P); D] = std::array::from_fn(|k| {
-        let step = SVector::<f64, D>::from_fn(|row, _| if row == k { PROBE } else { 0.0 });
-        (primitive.moved(&step), primitive.moved(&-step))
-    });
-    let (mut hessian, mut slope) = (SMatrix::zeros(), SVector::zeros());
+    let mut hessian = SMatrix::<f64, D, D>::zeros();
+    let mut slope = SVector::<f64, D>::zeros();
+    let across = primitive.axis().across();
     for sample in samples {
-        let here = residual(primitive, sample);
-        let mut derivatives = SMatrix::<f64, 4, D>::zeros();
-        for (k, (ahead, behind)) in probes.iter().enumerate() {
-            let change = residual(ahead, sample) - residual(behind, sample);
-            derivatives.set_column(k, &(change / (2.0 * PROBE)));
+        let here = primitive.linearize(&across, &sample.point);
+        let mut rows = [
+            here.distance_slopes,
+            SVector::zeros(),
+            SVector::zeros(),
+            SVector::zeros(),
+        ];
+        for (k, turn) in here.normal_slopes.iter().enumerate() {
+            for axis in 0..3 {
+                rows[axis + 1][k] = NORMAL_WEIGHT * turn[axis];
+            }
         }
-        hessian += derivatives.tr_mul(&derivatives);
-        slope += derivatives.tr_mul(&here);
+        let turned = NORMAL_WEIGHT * (here.normal - sample.normal);
+        let residuals = [here.distance, turned.x, turned.y, turned.z];
+        for (row, residual) in rows.iter().zip(residuals) {
+            hessian.syger(1.0, row, row, 1.0);
+            slope.axpy(residual, row, 1.0);
+        }
     }
+    hessian.fill_upper_triangle_with_lower_triangle();
     (hessian, slope)
 }

@@ -17,10 +17,13 @@ pub(crate) mod torus;
 use super::frame::{Fit, Frame, rms_distance};
 use super::{Implicit, Sample};
 use crate::math::Vec3;
+use axis::{Axis, Revolved};
 use levenberg_marquardt::{Progress, improve};
 use nalgebra::SVector;
 
-/// Steps spent on each start before the better ones are chosen.
+/// Starts that are followed at all, those that fit best as they are, and steps spent on each before the better ones
+/// are chosen.
+const TRIALS: usize = 4;
 const TRIAL_STEPS: usize = 6;
 
 /// Steps spent on the chosen ones; a good start needs five to ten.
@@ -45,6 +48,32 @@ pub(crate) trait Primitive<const D: usize>: Shape {
 
     /// The surface after a small step in its degrees of freedom.
     fn moved(&self, step: &SVector<f64, D>) -> Self;
+
+    /// The axis of revolution.
+    fn axis(&self) -> &Axis;
+
+    /// Distance and normal at `p`, and how fast they change with the degrees of freedom; `across` are the two
+    /// directions across the axis.
+    fn linearize(&self, across: &[Vec3; 2], p: &Vec3) -> Linear<D>;
+}
+
+/// Distance and normal of a primitive at a point, to first order in its degrees of freedom.
+pub(crate) struct Linear<const D: usize> {
+    distance: f64,
+    normal: Vec3,
+    distance_slopes: SVector<f64, D>,
+    normal_slopes: [Vec3; D],
+}
+
+impl<const D: usize> Linear<D> {
+    fn new(here: &Revolved, slopes: [(f64, Vec3); D]) -> Self {
+        Self {
+            distance: here.distance,
+            normal: here.normal,
+            distance_slopes: SVector::from_fn(|k, _| slopes[k].0),
+            normal_slopes: slopes.map(|s| s.1),
+        }
+    }
 }
 
 /// A primitive in the coordinates of the samples that it was fitted to.
@@ -65,16 +94,17 @@ fn fit<const D: usize, P: Primitive<D>>(samples: &[Sample]) -> Option<Fit<Fitted
     }
     let frame = Frame::around(samples)?;
     let scaled = frame.enter_all(samples);
-    let mut trials: Vec<(f64, P)> = P::starts(&scaled)
-        .into_iter()
-        .filter_map(|start| improve(start, &scaled, TRIAL_STEPS))
-        .map(|Progress { cost, primitive }| (cost, primitive))
-        .collect();
-    trials.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let finalists = trials.into_iter().take(FINALISTS);
-    let best = finalists
-        .filter_map(|(_, trial)| improve(trial, &scaled, STEPS))
-        .min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+    let follow = |starts: Vec<P>, count: usize, steps: usize| {
+        let follow = |start| improve(start, &scaled, steps);
+        let mut reached: Vec<Progress<P>> = starts.into_iter().filter_map(follow).collect();
+        reached.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        reached.truncate(count);
+        reached
+    };
+    let primitives = |reached: Vec<Progress<P>>| reached.into_iter().map(|r| r.primitive).collect();
+    let starts = primitives(follow(P::starts(&scaled), TRIALS, 0));
+    let finalists = primitives(follow(starts, FINALISTS, TRIAL_STEPS));
+    let best = follow(finalists, 1, STEPS).pop()?;
     let surface = Fitted {
         primitive: best.primitive,
         frame,

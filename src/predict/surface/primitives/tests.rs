@@ -132,3 +132,39 @@ fn distances_have_the_gradient_that_is_given() {
     check::<6, Cone>(cone);
     check::<7, Torus>(torus);
 }
+
+#[test]
+fn slopes_are_those_of_small_steps() {
+    fn check<const D: usize, P: Primitive<D>>(surface: Parametric) {
+        let samples = sampled(surface, 9, 0.01);
+        let primitive = fit::<D, P>(&samples).unwrap().surface.primitive;
+        let across = primitive.axis().across();
+        for p in [Vec3::new(0.3, -0.2, 0.5), Vec3::new(-0.9, 0.4, -0.1)] {
+            let linear = primitive.linearize(&across, &p);
+            assert_eq!(
+                (linear.distance, linear.normal),
+                primitive.distance_and_normal(&p)
+            );
+            for k in 0..D {
+                let mut step = SVector::<f64, D>::zeros();
+                step[k] = 1e-5;
+                let ahead = primitive.moved(&step).distance_and_normal(&p);
+                let behind = primitive.moved(&-step).distance_and_normal(&p);
+                let distance = (ahead.0 - behind.0) / 2e-5;
+                let normal = (ahead.1 - behind.1) / 2e-5;
+                let what = format!("{k}: {distance} {}", linear.distance_slopes[k]);
+                assert!(
+                    (distance - linear.distance_slopes[k]).abs() < 1e-7,
+                    "{what}"
+                );
+                assert!(
+                    (normal - linear.normal_slopes[k]).norm() < 1e-6,
+                    "{k}: {normal}"
+                );
+            }
+        }
+    }
+    check::<5, Cylinder>(cylinder);
+    check::<6, Cone>(cone);
+    check::<7, Torus>(torus);
+}

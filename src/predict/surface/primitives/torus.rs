@@ -1,7 +1,10 @@
 //! Tori.
 
-use super::axis::{Axis, axis_of_revolution, covariance_of_normals, eigenvectors, solve_symmetric};
-use super::{Fitted, Primitive, Shape, fit};
+use super::axis::{
+    Axis, Revolved, axis_of_revolution, covariance_of_normals, eigenvectors, inverse,
+    solve_symmetric,
+};
+use super::{Fitted, Linear, Primitive, Shape, fit};
 use crate::math::Vec3;
 use crate::predict::surface::Sample;
 use crate::predict::surface::frame::Fit;
@@ -69,6 +72,33 @@ impl Primitive<7> for Torus {
             radius: self.radius + step[5],
             tube: self.tube + step[6],
         }
+    }
+
+    fn axis(&self) -> &Axis {
+        &self.axis
+    }
+
+    fn linearize(&self, across: &[Vec3; 2], p: &Vec3) -> Linear<7> {
+        let (height, distance, away) = self.axis.locate(p);
+        let from_circle = (distance - self.radius) * away + height * self.axis.direction;
+        let length = from_circle.norm();
+        let sign = self.tube.signum();
+        let (value, normal) = self.distance_and_normal(p);
+        let along = self.axis.direction.cross(&away);
+        let meridian = along.cross(&normal);
+        let here = Revolved {
+            arm: p - self.axis.origin,
+            distance: value,
+            normal,
+            along,
+            turn_along: normal.dot(&away) * inverse(distance),
+            meridian,
+            turn_meridian: sign * inverse(length),
+        };
+        let [a, b, c, d, e] = here.slopes(across, &self.axis.direction);
+        let widened = -here.turn_meridian * meridian.dot(&away) * meridian;
+        let radius = (-normal.dot(&away), widened);
+        Linear::new(&here, [a, b, c, d, e, radius, (-1.0, Vec3::zeros())])
     }
 }
 

@@ -153,20 +153,10 @@ impl<'a> Auto<'a> {
         let first = marcher.patch(faired.clone(), sizes, &faired, staircase);
         match first {
             Err(error) if error.kind() == ErrorKind::Geometry && !is_noisy => {
-<<<<<<< HEAD
-                let start = staircase.patch(Method::FairC2)?;
-                marcher
-                    .patch_from(&start, &faired, staircase)
-                    .map_err(|second| match second.kind() {
-                        ErrorKind::Cancelled => second,
-                        _ => error,
-                    })
-=======
                 match self.march_again(&marcher, &faired, staircase) {
                     Err(other) if other.kind() == ErrorKind::Geometry => Err(error),
                     done => done,
                 }
->>>>>>> main
             }
             done => done,
         }

@@ -63,7 +63,8 @@ bool run_report(const Arguments& arguments) {
          "`cpp_tests/judge/exceptions.txt`. Intersections: pairs of triangles, one of them new. Distances: two-way, over the "
          "diameter of the largest hole; to CGAL's patch they are bounded by `cpp_tests/judge/distances.txt`. Where CGAL does "
          "not fill every hole (pinched rims, for example) the table says so, and where it closes an island by itself the two "
-         "are different surfaces. Times: of filling alone, both in the same run, two cases at a time.\n"},
+         "are different surfaces. Times: of filling alone, both in the same run, two cases at a time: what else the "
+         "machine does is in them. Times on an idle machine are in [cgal.md](cgal.md).\n"},
     };
     // Rows that are part of the repository.
     static constexpr const char* PICTURES[] = {"armpit.auto", "bunny_large.auto", "elephant_fringe.fair-c2", "goat_horns.auto",

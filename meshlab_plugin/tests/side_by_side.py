@@ -153,7 +153,7 @@ def summary(table):
     count = len(table)
     for name in FILTERS:
         of = [results[name] for results in table.values()]
-        lines.append("- **%s**: %d of %d cases ok, intersecting pairs in %d cases, %.1f s of filling altogether."
+        lines.append("- **%s**: %d of %d cases ok; cases with intersecting pairs: %d; %.1f s of filling altogether."
                      % (name, sum(bool(r.get("ok")) for r in of), count,
                         sum(bool(r.get("intersections")) for r in of), sum(r.get("seconds") or 0 for r in of)))
     for other in FILTERS[1:]:

@@ -14,5 +14,6 @@ export RUSTFLAGS="-Zsanitizer=address -Cpasses=sancov-module -Cllvm-args=-saniti
  -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table \
  -Cllvm-args=-sanitizer-coverage-trace-compares -Ccodegen-units=1 --cfg fuzzing"
 cargo build --release --target "$target"
+export LSAN_OPTIONS=${LSAN_OPTIONS:-"suppressions=$PWD/../tests/lsan.supp:print_suppressions=0"}
 exec "target/$target/release/calls" -max_total_time="${1:-1800}" -timeout=60 -rss_limit_mb=4096 -max_len=4096 \
     -artifact_prefix=artifacts/calls/ corpus/calls

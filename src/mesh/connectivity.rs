@@ -11,6 +11,10 @@ use super::survey::survey;
 use crate::error::Result;
 use std::collections::BTreeMap;
 
+/// One part in so many is free behind the arrays of a new mesh, so that the first fills do not move them: without it
+/// closing one hole of a large mesh costs as much as moving its pages.
+pub(super) const ROOM: usize = 16;
+
 /// Link of a halfedge whose edge has one triangle.
 pub(crate) const BOUNDARY: u32 = u32::MAX;
 /// Link of a halfedge whose edge has three or more triangles.
@@ -95,9 +99,11 @@ impl Connectivity {
         let links = link_halfedges(vertex_count, triangles, &chunks, &mut defects);
         let (rim, boundary) =
             RimTable::build(vertex_count, triangles, &links.twin, &links.boundary);
+        let mut twin = links.twin;
+        twin.reserve_exact(twin.len() / ROOM);
         let connectivity = Self {
-            built: links.twin.len(),
-            twin: links.twin,
+            built: twin.len(),
+            twin,
             boundary,
             rim,
             appended: BTreeMap::new(),

@@ -1,7 +1,7 @@
 //! A triangle mesh that was validated when it was built.
 
 use super::attributes::{AttributeValues, Attributes};
-use super::connectivity::Connectivity;
+use super::connectivity::{Connectivity, ROOM};
 use super::defects::MeshDefects;
 use crate::error::{Error, Result};
 use crate::math::Vec3;
@@ -50,14 +50,16 @@ impl TriMesh {
     /// As [`TriMesh::new`], and [`crate::ErrorKind::InvalidInput`] when the attributes are not as long as
     /// what they belong to.
     pub fn with_attributes(
-        positions: Vec<[f64; 3]>,
-        triangles: Vec<[u32; 3]>,
+        mut positions: Vec<[f64; 3]>,
+        mut triangles: Vec<[u32; 3]>,
         vertex_attributes: Attributes,
         face_attributes: Attributes,
     ) -> Result<Self> {
         check_sizes(&positions, &triangles, &vertex_attributes, &face_attributes)?;
         check_finite(&positions)?;
         let (connectivity, defects) = Connectivity::build(positions.len(), &triangles)?;
+        positions.reserve_exact(positions.len() / ROOM);
+        triangles.reserve_exact(triangles.len() / ROOM);
         Ok(Self {
             positions,
             triangles,

@@ -116,43 +116,17 @@ impl AlgebraicSurface {
         if 4 * samples.len() < CONDITIONS_PER_TERM * terms {
             return None;
         }
-        let scaled = frame.enter_all(samples);
-        let mut system = Mat::zeros(4 * scaled.len(), terms);
-        for (i, sample) in scaled.iter().enumerate() {
-            let (values, gradients) = kind.monomials(&sample.point);
-            for k in 0..terms {
-                let length = sample.normal.dot(&gradients[k]);
-                let row = gradients[k] - (1.0 - LENGTH_WEIGHT) * length * sample.normal;
-                system[(4 * i, k)] = values[k];
-                for axis in 0..3 {
-                    system[(4 * i + 1 + axis, k)] = row[axis];
-                }
-            }
-        }
-        let solver = LeastSquares::new(&system)?;
-        let mut target = Mat::zeros(4 * scaled.len(), 1);
-        let mut lengths = vec![1.0; scaled.len()];
+        let system = System::new(kind, &frame.enter_all(samples))?;
+        let mut lengths = Mat::from_fn(samples.len(), 1, |_, _| 1.0);
         let mut solution = Mat::zeros(terms, 1);
         for _ in 0..=REWEIGHTINGS {
-            for (i, (sample, length)) in scaled.iter().zip(&lengths).enumerate() {
-                for axis in 0..3 {
-                    target[(4 * i + 1 + axis, 0)] = LENGTH_WEIGHT * length * sample.normal[axis];
-                }
-            }
-            solution = solver.solve(&target);
-            for (sample, length) in scaled.iter().zip(&mut lengths) {
-                let gradients = kind.monomials(&sample.point).1;
-                *length = (0..terms)
-                    .map(|k| solution[(k, 0)] * gradients[k].dot(&sample.normal))
-                    .sum();
-            }
-            let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
+            solution = system.solve(&lengths);
+            lengths = &system.lengths * &solution;
+            let mean = lengths.sum() / samples.len() as f64;
             if !(mean.is_finite() && mean > 0.0) {
                 return None;
             }
-            for length in &mut lengths {
-                *length /= mean;
-            }
+            lengths /= mean;
         }
         let mut coefficients = [0.0; MOST_TERMS];
         for (k, coefficient) in coefficients[..terms].iter_mut().enumerate() {
@@ -180,21 +154,53 @@ impl Implicit for AlgebraicSurface {
     }
 }
 
-/// Least squares solutions of one system for several right-hand sides, of smallest norm in the directions
-/// that the system does not determine.
-struct LeastSquares {
+/// The conditions on the coefficients as a least squares problem, decomposed.
+struct System {
     svd: Svd<f64>,
+    /// What the target length of each sample's gradient adds to each component of the right-hand side along the left
+    /// singular vectors.
+    components: Mat<f64>,
+    /// What each coefficient adds to the length of the gradient at each sample, along its normal.
+    lengths: Mat<f64>,
 }
 
-impl LeastSquares {
+impl System {
     /// `None` when the singular values cannot be found.
-    fn new(system: &Mat<f64>) -> Option<Self> {
-        let svd = system.thin_svd().ok()?;
-        Some(Self { svd })
+    fn new(kind: Kind, samples: &[Sample]) -> Option<Self> {
+        let terms = kind.terms();
+        let mut matrix = Mat::zeros(4 * samples.len(), terms);
+        let mut lengths = Mat::zeros(samples.len(), terms);
+        for (i, sample) in samples.iter().enumerate() {
+            let (values, gradients) = kind.monomials(&sample.point);
+            for k in 0..terms {
+                let length = sample.normal.dot(&gradients[k]);
+                let row = gradients[k] - (1.0 - LENGTH_WEIGHT) * length * sample.normal;
+                lengths[(i, k)] = length;
+                matrix[(4 * i, k)] = values[k];
+                for axis in 0..3 {
+                    matrix[(4 * i + 1 + axis, k)] = row[axis];
+                }
+            }
+        }
+        let svd = matrix.thin_svd().ok()?;
+        let left = svd.U();
+        let components = Mat::from_fn(left.ncols(), samples.len(), |k, i| {
+            let along: f64 = (0..3)
+                .map(|axis| left[(4 * i + 1 + axis, k)] * samples[i].normal[axis])
+                .sum();
+            LENGTH_WEIGHT * along
+        });
+        Some(Self {
+            svd,
+            components,
+            lengths,
+        })
     }
 
-    fn solve(&self, target: &Mat<f64>) -> Mat<f64> {
-        let mut components = self.svd.U().transpose() * target;
+    /// The coefficients for target lengths of the gradients, of smallest norm in the directions that the samples do
+    /// not determine.
+    fn solve(&self, lengths: &Mat<f64>) -> Mat<f64> {
+        let mut components = &self.components * lengths;
         let singular_values = self.svd.S().column_vector();
         let cut = SINGULAR * singular_values[0];
         for k in 0..components.nrows() {

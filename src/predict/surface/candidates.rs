@@ -8,13 +8,11 @@ use super::primitives::{cone::Cone, cylinder::Cylinder, torus::Torus};
 use super::samples::SampledBand;
 use super::{Implicit, Sample};
 
-/// Most samples of an interpolating function that is scored, and of one that is used: the cost grows with the cube,
-/// the accuracy little.
-const MOST_SCORED_CENTERS: usize = 80;
-const MOST_CENTERS: usize = 140;
-/// Most samples of a surface with few degrees of freedom, algebraic or found by iteration.
-const MOST_LINEAR_SAMPLES: usize = 300;
-const MOST_ITERATED_SAMPLES: usize = 100;
+/// Most samples of a fit that is scored, and of one that is used: of an interpolating function, whose cost grows with
+/// the cube and whose accuracy little; of a surface that is found by iteration; of an algebraic one.
+const MOST_CENTERS: [usize; 2] = [80, 140];
+const MOST_ITERATED_SAMPLES: [usize; 2] = [60, 100];
+const MOST_LINEAR_SAMPLES: [usize; 2] = [150, 300];
 /// Rings of samples of an interpolating function of the whole surroundings: two determine position, tangent plane
 /// and curvature at the rim, and further ones only cost.
 const LAST_CENTER_LEVEL: u32 = 1;
@@ -125,13 +123,18 @@ impl Candidate {
         }
     }
 
-    /// Most samples that a fit uses when it is scored.
-    pub(crate) fn most_samples(self) -> usize {
+    /// Most samples of a fit that is scored, and of one that is used.
+    fn most_samples(self) -> [usize; 2] {
         match self {
             Self::Cylinder | Self::Cone | Self::Torus => MOST_ITERATED_SAMPLES,
-            _ if self.interpolates() => MOST_SCORED_CENTERS,
+            _ if self.interpolates() => MOST_CENTERS,
             _ => MOST_LINEAR_SAMPLES,
         }
+    }
+
+    /// Most samples of a fit that is scored.
+    pub(crate) fn most_scored(self) -> usize {
+        self.most_samples()[0]
     }
 
     /// Fits the surface to the vertices.
@@ -180,12 +183,7 @@ impl Candidate {
             Self::Cubic | Self::Quintic => LAST_CENTER_LEVEL,
             _ => FITTED_RINGS,
         };
-        let most = if self.interpolates() {
-            MOST_CENTERS
-        } else {
-            self.most_samples()
-        };
-        let vertices = samples.spread(0..last + 1, most);
+        let vertices = samples.spread(0..last + 1, self.most_samples()[1]);
         self.fit(samples, &vertices)
     }
 }

@@ -24,7 +24,7 @@ pub(crate) const RINGS: u32 = 9;
 /// Fewer samples than this are not fitted.
 const FEWEST_SAMPLES: usize = 20;
 /// Vertices that a prediction is compared with, at most.
-const MOST_TESTS: usize = 300;
+const MOST_TESTS: usize = 150;
 /// A point further off than this, in edge lengths, counts as being so far off: runaways shall not dominate means.
 const FARTHEST: f64 = 10.0;
 /// Added to each distance before the logarithm: below it, in edge lengths, files in single precision have no truth.
@@ -42,6 +42,9 @@ const SMOOTH: f64 = 0.01;
 /// On rims with more edges than this it must beat it by more, in proportion: functions that grow faster are trusted
 /// less far. The middle of such a hole is eight times as many rings away as the widest band that is left out.
 const WIDE_RIM: f64 = 150.0;
+/// A candidate that after some of the bands is further off than this factor times the best of those that were
+/// compared with all, by the same bands, is not compared with the others.
+const OUT_OF_REACH: f64 = 3.0;
 /// A costly candidate is fitted only when the one that contains or approximates it scores within this factor of the
 /// best so far.
 const GATE_FACTOR: f64 = 2.0;
@@ -56,7 +59,8 @@ const EDGES_PER_RING: usize = 6;
 /// Scores of the candidates that were fitted, in the order of fitting. Left out are bands up to the width of the
 /// hole, at most three rings.
 ///
-/// Once a candidate is as good as exact, those with more freedom are not tried any more.
+/// Once a candidate is as good as exact, those with more freedom are not tried any more. One that is far behind after
+/// some of the bands is not tried on the others; its score is then as far behind the best one as it was there.
 pub(crate) fn scores(
     samples: &mut SampledBand,
     candidates: &[Candidate],
@@ -64,6 +68,7 @@ pub(crate) fn scores(
 ) -> Vec<Score> {
     let widest = (rim_edges.div_ceil(EDGES_PER_RING) as u32).clamp(1, MOST_LEFT_OUT);
     let mut scores: Vec<Score> = Vec::new();
+    let mut race = Race::default();
     for &candidate in candidates {
         let best = scores.iter().map(|s| s.1).fold(f64::INFINITY, f64::min);
         let is_settled = scores
@@ -76,10 +81,7 @@ pub(crate) fn scores(
         if gate.is_some_and(|score| score > AS_GOOD_AS_EXACT.max(GATE_FACTOR * best)) {
             continue;
         }
-        let mut score = leave_out_score(samples, candidate, widest);
-        if candidate.interpolates() {
-            score *= INTERPOLATION_FACTOR;
-        }
+        let mut score = race.run(samples, candidate, widest);
         if candidate == Candidate::Quintic
             && let Some(cubic) = score_of(&scores, Candidate::Cubic)
             && score > quintic_factor(samples.noise, rim_edges) * cubic
@@ -124,26 +126,46 @@ pub(crate) fn is_exact(scores: &[Score]) -> bool {
     scores.iter().any(|s| s.1 < AS_GOOD_AS_EXACT)
 }
 
-/// The geometric mean over the left out bands of the distances to the surface; infinite when nothing could be fitted.
-fn leave_out_score(samples: &mut SampledBand, candidate: Candidate, widest: u32) -> f64 {
-    let mut logarithms = 0.0;
-    let mut count = 0;
-    for r in 1..=widest {
-        let vertices = samples.spread(r..r + FITTED_RINGS + 1, candidate.most_samples());
-        if vertices.len() < FEWEST_SAMPLES {
-            continue;
-        }
-        count += 1;
-        let error = match candidate.fit(samples, &vertices) {
-            Some(surface) => left_out_distance(samples, r, surface.as_ref()),
-            None => return f64::INFINITY,
+/// The best scores so far, after each of the bands that are left out.
+#[derive(Default)]
+struct Race {
+    best: Vec<f64>,
+}
+
+impl Race {
+    /// The geometric mean over the left out bands of the distances to the surface; infinite when nothing could be
+    /// fitted.
+    fn run(&mut self, samples: &mut SampledBand, candidate: Candidate, widest: u32) -> f64 {
+        let factor = if candidate.interpolates() {
+            INTERPOLATION_FACTOR
+        } else {
+            1.0
         };
-        logarithms += (error + EXACT).ln();
+        let mut logarithms = 0.0;
+        let mut means = Vec::new();
+        for r in 1..=widest {
+            let vertices = samples.spread(r..r + FITTED_RINGS + 1, candidate.most_scored());
+            if vertices.len() < FEWEST_SAMPLES {
+                continue;
+            }
+            let Some(surface) = candidate.fit(samples, &vertices) else {
+                return f64::INFINITY;
+            };
+            logarithms += (left_out_distance(samples, r, surface.as_ref()) + EXACT).ln();
+            let mean = factor * f64::exp(logarithms / (means.len() + 1) as f64);
+            if let (Some(&best), Some(last)) = (self.best.get(means.len()), self.best.last())
+                && mean > AS_GOOD_AS_EXACT.max(OUT_OF_REACH * best)
+            {
+                return mean / best * last;
+            }
+            means.push(mean);
+        }
+        self.best.resize(means.len(), f64::INFINITY);
+        for (best, mean) in self.best.iter_mut().zip(&means) {
+            *best = best.min(*mean);
+        }
+        means.last().copied().unwrap_or(f64::INFINITY)
     }
-    if count == 0 {
-        return f64::INFINITY;
-    }
-    (logarithms / f64::from(count)).exp()
 }
 
 /// Root mean square distance of the vertices below level `r` to the surface, in rim edge lengths.

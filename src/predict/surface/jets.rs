@@ -32,7 +32,7 @@ const SINGULAR_SHARE: f64 = 1e-3;
 const INTERPOLATING_DECAY: f64 = 1.0;
 const SMOOTHING_DECAY: f64 = 0.3;
 /// Vertices at which noise is estimated, at most: their median does not need all.
-const NOISE_PROBES: usize = 100;
+const NOISE_PROBES: usize = 50;
 /// What a quadric misses of a smooth surface grows with the cube of the distance: over three rings it deviates by
 /// 1.5³ times as much as over two, in squares by this factor. Noise does not grow.
 const SQUARED_GROWTH: f64 = 11.390625;
@@ -244,10 +244,10 @@ fn monomials(constant: f64, u: f64, v: f64) -> Coefficients {
     Coefficients::from([constant, u, v, u * u / 2.0, mixed, v * v / 2.0])
 }
 
-/// The quadric that fits the heights with weights `exp(-2 decay (u² + v²))`; singular values that are too small are
-/// left out, and with them the constant term when `constant` is zero. `None` when something is not finite.
+/// The quadric that fits the heights with weights `exp(-2 decay (u² + v²))`, without its constant term when
+/// `constant` is zero; singular values that are too small are left out. `None` when something is not finite.
 fn least_squares(rows: &[[f64; 3]], decay: f64, constant: f64) -> Option<Coefficients> {
-    let mut matrix = SMatrix::<f64, 6, 6>::zeros();
+    let mut matrix = Matrix::zeros();
     let mut right_side = Coefficients::zeros();
     for &[u, v, w] in rows {
         let b = monomials(constant, u, v);
@@ -258,6 +258,26 @@ fn least_squares(rows: &[[f64; 3]], decay: f64, constant: f64) -> Option<Coeffic
     if !matrix.iter().chain(&right_side).all(|x| x.is_finite()) {
         return None;
     }
+    if constant == 0.0 {
+        // Keeps the constant term at zero and the condition of the matrix.
+        matrix[(0, 0)] = matrix.trace() / 5.0;
+    }
+    well_conditioned_solution(matrix, &right_side)
+        .or_else(|| Some(truncated_solution(matrix, &right_side)))
+}
+
+type Matrix = SMatrix<f64, 6, 6>;
+
+/// The solution of a system none of whose singular values is too small; `None` where that is not certain.
+fn well_conditioned_solution(matrix: Matrix, right_side: &Coefficients) -> Option<Coefficients> {
+    let cholesky = matrix.cholesky()?;
+    // The trace bounds the largest eigenvalue, that of the inverse the inverse of the smallest.
+    let condition = matrix.trace() * cholesky.inverse().trace();
+    (condition * SINGULAR_SHARE * SINGULAR_SHARE < 1.0).then(|| cholesky.solve(right_side))
+}
+
+/// The solution without the singular values that are too small.
+fn truncated_solution(matrix: Matrix, right_side: &Coefficients) -> Coefficients {
     let eigen = SymmetricEigen::new(matrix);
     let smallest = SINGULAR_SHARE * SINGULAR_SHARE * eigen.eigenvalues.max();
     let mut solution = Coefficients::zeros();
@@ -267,8 +287,8 @@ fn least_squares(rows: &[[f64; 3]], decay: f64, constant: f64) -> Option<Coeffic
         .zip(eigen.eigenvectors.column_iter())
     {
         if *value > smallest {
-            solution.axpy(vector.dot(&right_side) / value, &vector, 1.0);
+            solution.axpy(vector.dot(right_side) / value, &vector, 1.0);
         }
     }
-    Some(solution)
+    solution
 }

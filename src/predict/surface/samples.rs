@@ -7,8 +7,6 @@ use std::ops::Range;
 
 /// Samples closer to each other than this share of the rim's edge length make systems ill-conditioned.
 const CLOSEST: f64 = 0.2;
-/// Most vertices that [`SampledBand::spread`] returns.
-const MOST_SPREAD: usize = 300;
 /// Noise, in rim edge lengths, from which on normals come from smoothing fits as well, and from which on these take
 /// four rings of neighbours instead of three. Triangulations of smooth surfaces show 0 to 0.01, scans of detailed
 /// models 0.01 to 0.06, a sphere with noise of one percent of its size 0.05 to 0.08, with five percent 0.2 to 0.4.
@@ -27,8 +25,8 @@ pub(crate) struct SampledBand<'a> {
     /// Noise of the positions over `step`.
     pub(crate) noise: f64,
     use_jets: bool,
-    /// Vertices found by [`Self::spread`] for ranges of levels, as many as were asked for at most.
-    spreads: Vec<(Range<u32>, Vec<u32>)>,
+    /// Vertices found by [`Self::spread`] for ranges of levels, and how many were asked for.
+    spreads: Vec<(Range<u32>, usize, Vec<u32>)>,
     normals: Vec<Option<Vec3>>,
     smoothed: Vec<Option<Sample>>,
     interrupted: &'a dyn Fn() -> bool,
@@ -96,41 +94,40 @@ impl<'a> SampledBand<'a> {
         *self.smoothed[v].insert(sample)
     }
 
-    /// At most `most` (and at most 300) of the vertices whose level is in `levels`, spread as evenly as possible: each is the one
+    /// At most `most` of the vertices whose level is in `levels`, spread as evenly as possible: each is the one
     /// farthest from those before it, beginning with the one farthest from the middle.
     pub(crate) fn spread(&mut self, levels: Range<u32>, most: usize) -> Vec<u32> {
-        // Fewer vertices are the first ones of more.
-        let known = self.spreads.iter().position(|(l, _)| *l == levels);
-        let at = known.unwrap_or_else(|| {
-            let vertices = self.spread_all(levels.clone());
-            self.spreads.push((levels, vertices));
-            self.spreads.len() - 1
-        });
-        let vertices = &self.spreads[at].1;
-        vertices[..most.min(vertices.len())].to_vec()
+        let known = self.spreads.iter().find(|s| s.0 == levels && s.1 >= most);
+        if let Some((.., vertices)) = known {
+            // Fewer vertices are the first ones of more.
+            return vertices[..most.min(vertices.len())].to_vec();
+        }
+        let vertices = self.spread_anew(levels.clone(), most);
+        self.spreads.push((levels, most, vertices.clone()));
+        vertices
     }
 
-    fn spread_all(&self, levels: Range<u32>) -> Vec<u32> {
+    fn spread_anew(&self, levels: Range<u32>, most: usize) -> Vec<u32> {
         let mut vertices = self.band.vertices_in(levels);
-        let point = |v: u32| self.band.points[v as usize];
         vertices.retain(|&v| self.band.triangle_normals[v as usize] != Vec3::zeros());
         if vertices.is_empty() {
             return vertices;
         }
-        let middle = vertices.iter().map(|&v| point(v)).sum::<Vec3>() / vertices.len() as f64;
-        let mut reach: Vec<f64> = vertices
+        let points: Vec<Vec3> = vertices
             .iter()
-            .map(|&v| (point(v) - middle).norm_squared())
+            .map(|&v| self.band.points[v as usize])
             .collect();
+        let middle = points.iter().sum::<Vec3>() / points.len() as f64;
+        let mut reach: Vec<f64> = points.iter().map(|p| (p - middle).norm_squared()).collect();
         let closest = (CLOSEST * self.step).powi(2);
-        let mut chosen = Vec::with_capacity(MOST_SPREAD.min(vertices.len()));
+        let mut chosen = Vec::with_capacity(most.min(vertices.len()));
         let mut next = farthest(&reach);
         reach.fill(f64::INFINITY);
-        while chosen.len() < MOST_SPREAD && !(self.interrupted)() {
-            let at = point(vertices[next]);
+        while chosen.len() < most && !(self.interrupted)() {
+            let at = points[next];
             chosen.push(vertices[next]);
-            for (distance, &v) in reach.iter_mut().zip(&vertices) {
-                *distance = distance.min((point(v) - at).norm_squared());
+            for (distance, p) in reach.iter_mut().zip(&points) {
+                *distance = distance.min((p - at).norm_squared());
             }
             next = farthest(&reach);
             if reach[next] < closest {

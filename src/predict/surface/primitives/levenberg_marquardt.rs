@@ -18,9 +18,10 @@ const DAMPING_RISE: f64 = 5.0;
 const MOST_DAMPING: f64 = 1e9;
 
 /// A step that is shorter than this, or lowers the cost by less than this part, is the last one: what is left to
-/// gain then moves the surface by about 1e-5 of the residuals.
+/// gain then moves the surface by about 1e-4 of the residuals. Where these vanish each step is worth nearly all of
+/// the cost, so that samples of a primitive lead to it exactly.
 const SETTLED_STEP: f64 = 1e-12;
-const SETTLED_FALL: f64 = 1e-10;
+const SETTLED_FALL: f64 = 1e-8;
 
 /// The longest step in any degree of freedom: the samples have the size one.
 const LONGEST_STEP: f64 = 2.0;

@@ -20,6 +20,7 @@ use crate::math::Vec3;
 use axis::{Axis, Revolved};
 use levenberg_marquardt::{Progress, improve};
 use nalgebra::SVector;
+use std::ops::Range;
 
 /// Starts that are followed at all, those that fit best as they are, and steps spent on each before the better ones
 /// are chosen.
@@ -29,8 +30,10 @@ const TRIAL_STEPS: usize = 6;
 /// Steps spent on the chosen ones; a good start needs five to ten.
 const STEPS: usize = 40;
 
-/// Starts that are followed to the end.
+/// Starts that are followed to the end, at most, and the second only when its sum of squares is between these parts
+/// of the first's: nearer ones have reached the same minimum, farther ones will not overtake it.
 const FINALISTS: usize = 2;
+const OTHER_MINIMUM: Range<f64> = 1.01..4.0;
 
 /// Samples per degree of freedom below which a fit means nothing.
 const SAMPLES_PER_FREEDOM: usize = 1;
@@ -103,7 +106,13 @@ fn fit<const D: usize, P: Primitive<D>>(samples: &[Sample]) -> Option<Fit<Fitted
     };
     let primitives = |reached: Vec<Progress<P>>| reached.into_iter().map(|r| r.primitive).collect();
     let starts = primitives(follow(P::starts(&scaled), TRIALS, 0));
-    let finalists = primitives(follow(starts, FINALISTS, TRIAL_STEPS));
+    let mut finalists = follow(starts, FINALISTS, TRIAL_STEPS);
+    if let [first, second] = &finalists[..]
+        && !OTHER_MINIMUM.contains(&(second.cost / first.cost))
+    {
+        finalists.pop();
+    }
+    let finalists = primitives(finalists);
     let best = follow(finalists, 1, STEPS).pop()?;
     let surface = Fitted {
         primitive: best.primitive,

@@ -62,6 +62,11 @@ pub(crate) struct CreaseEnd {
 /// [`ErrorKind::Geometry`] when there are creases that cannot be used, with the reason.
 pub(crate) fn detect(hole: &HoleShape) -> Result<Option<Regions>> {
     let mut facets = Facets::new(hole);
+    // Filtering averages: no two of these will ever make the angle of a crease.
+    if facets.turn_less_than(LEAST_ANGLE / 2.0) {
+        return Ok(None);
+    }
+    facets.find_edges();
     facets.filter_normals();
     let threshold = threshold(&facets);
     let mut labels = Labels::new(&facets, threshold);

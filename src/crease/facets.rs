@@ -31,7 +31,8 @@ pub(super) struct Facets<'a> {
     /// Unit normals; zero for triangles without area.
     pub(super) normals: Vec<Vec3>,
     areas: Vec<f64>,
-    /// Edges with exactly two triangles that run along them in opposite directions, sorted by vertices.
+    /// Edges with exactly two triangles that run along them in opposite directions, sorted by vertices; none before
+    /// [`find_edges`](Self::find_edges).
     pub(super) edges: Vec<SharedEdge>,
 }
 
@@ -41,7 +42,7 @@ impl<'a> Facets<'a> {
             hole,
             normals: Vec::new(),
             areas: Vec::new(),
-            edges: shared_edges(&hole.surroundings.triangles),
+            edges: Vec::new(),
         };
         for t in &hole.surroundings.triangles {
             let [a, b, c] = t.map(|v| facets.point(v));
@@ -50,6 +51,18 @@ impl<'a> Facets<'a> {
             facets.areas.push(normal.norm() / 2.0);
         }
         facets
+    }
+
+    /// Whether all normals make less than the angle, in radians, with their mean.
+    pub(super) fn turn_less_than(&self, angle: f64) -> bool {
+        let mean = unit(self.normals.iter().sum());
+        let least = angle.cos();
+        self.normals.iter().all(|n| n.dot(&mean) > least)
+    }
+
+    /// Finds out which triangles meet in which edge.
+    pub(super) fn find_edges(&mut self) {
+        self.edges = shared_edges(self.triangles());
     }
 
     pub(super) fn triangles(&self) -> &[[u32; 3]] {

@@ -19,7 +19,8 @@ use crate::predict::surface::candidates::Candidate;
 use crate::predict::surface::choice::Score;
 use crate::predict::surface::jets::Band;
 use crate::predict::surface::samples::SampledBand;
-use crate::predict::surface::{Implicit, choice, march, tip};
+use crate::predict::surface::tip::{self, Tip};
+use crate::predict::surface::{Implicit, choice, march};
 use crate::refine::rim_sizes;
 
 /// Rings of triangles round the hole that are read.
@@ -120,13 +121,13 @@ impl<'a> Auto<'a> {
             .stopped_by(self.interrupted);
         staircase.check_interruption()?;
         let is_noisy = samples.is_noisy();
-        let (candidate, scores, is_tip) = self.choose(method, &mut samples)?;
+        let (candidate, scores, tip) = self.choose(method, &mut samples)?;
         let smooth_score = choice::score_of(&scores, candidate);
         self.prediction = Some(Prediction {
             chosen: candidate,
             scores,
             noise: samples.noise,
-            is_tip,
+            is_tip: tip.is_some(),
             crease_count: 0,
             crease_surfaces: Vec::new(),
             without_creases: None,
@@ -144,7 +145,7 @@ impl<'a> Auto<'a> {
             hole: self.hole,
             surface: surface.as_ref(),
             step,
-            is_tip,
+            tip,
             interrupted: self.interrupted,
         };
         let faired = staircase.patch(Method::FairC1)?;
@@ -185,8 +186,8 @@ impl<'a> Auto<'a> {
     }
 }
 
-/// Candidate, scores, and whether the hole is a tip.
-type Chosen = (Candidate, Vec<Score>, bool);
+/// Candidate, scores, and the tip if the hole is one.
+type Chosen = (Candidate, Vec<Score>, Option<Tip>);
 
 impl Auto<'_> {
     /// The patch that continues creases across the hole, if there are any and they are good enough; what speaks
@@ -237,24 +238,29 @@ impl Auto<'_> {
         let options = &self.options.auto;
         let is_noisy = samples.is_noisy();
         if let Some(candidate) = options.candidate {
-            let is_tip = options.tips && tip::is_tip(self.hole, &samples.band);
-            return Ok((candidate, Vec::new(), is_tip));
+            return Ok((candidate, Vec::new(), self.tip(samples)));
         }
         if method == Method::Curvature {
-            return Ok((UNCHOSEN[usize::from(is_noisy)], Vec::new(), false));
+            return Ok((UNCHOSEN[usize::from(is_noisy)], Vec::new(), None));
         }
         let candidates: Vec<Candidate> = Candidate::ALL
             .into_iter()
             .filter(|c| Self::allows(self.options, *c, is_noisy))
             .collect();
         let scores = choice::scores(samples, &candidates, self.hole.polygon.len());
-        let is_tip =
-            options.tips && !choice::is_exact(&scores) && tip::is_tip(self.hole, &samples.band);
-        let closing = is_tip.then(|| tip::closing_candidate(&scores)).flatten();
+        let tip = self.tip(samples);
+        let closing = tip
+            .filter(|_| !choice::is_exact(&scores))
+            .and_then(|_| tip::closing_candidate(&scores));
         let chosen = closing
             .or_else(|| choice::choose(&scores, is_noisy))
             .ok_or_else(|| geometry("the surroundings are too small to predict from"))?;
-        Ok((chosen, scores, closing.is_some()))
+        Ok((chosen, scores, tip))
+    }
+
+    fn tip(&self, samples: &SampledBand) -> Option<Tip> {
+        let is_asked_for = self.options.auto.tips;
+        is_asked_for.then(|| tip::find(self.hole, &samples.band))?
     }
 }
 
@@ -264,7 +270,7 @@ pub(super) struct Marcher<'a> {
     pub(super) surface: &'a dyn Implicit,
     /// Mean edge length at the rim.
     pub(super) step: f64,
-    pub(super) is_tip: bool,
+    pub(super) tip: Option<Tip>,
     pub(super) interrupted: &'a dyn Fn() -> bool,
 }
 
@@ -280,7 +286,7 @@ impl Marcher<'_> {
     ) -> Result<PatchSurface> {
         let rim_count = patch.rim_count;
         let interior = patch.points.len() - rim_count;
-        let finer = if self.is_tip && interior < FEWEST_INTERIOR {
+        let finer = if self.tip.is_some() && interior < FEWEST_INTERIOR {
             FINER_TIP
         } else if interior == 0 {
             FINER_RIM
@@ -293,6 +299,10 @@ impl Marcher<'_> {
             sizes.iter_mut().for_each(|s| *s /= finer);
         }
         let (_, diameter) = self.hole.middle_and_diameter();
+        if let Some(tip) = &self.tip {
+            self.raise(&mut patch, tip, diameter);
+            staircase.refine_again(&mut patch, &mut sizes)?;
+        }
         let limit = LONGEST_STEP * diameter;
         for _ in 0..MOST_ROUNDS {
             let longest = self.project(&mut patch.points[rim_count..], STEPS, limit)?;
@@ -312,6 +322,29 @@ impl Marcher<'_> {
         self.blend(&mut patch, limit)?;
         self.check(&patch, faired)?;
         Ok(patch)
+    }
+
+    /// Raises a patch over a tip that is higher than half a sphere to a cone whose apex lies on the surface: from a flat
+    /// patch steps along the gradients of a steep surface lead sideways.
+    fn raise(&self, patch: &mut PatchSurface, tip: &Tip, diameter: f64) {
+        let farthest = REACH[1] * diameter;
+        let Some(height) = march::way_out(self.surface, &tip.center, &tip.onwards, farthest) else {
+            return;
+        };
+        if height < diameter / 2.0 {
+            return;
+        }
+        let (rim, interior) = patch.points.split_at_mut(patch.rim_count);
+        let to_rim = |p: &Vec3| {
+            let distances = rim.iter().map(|q| (p - q).norm());
+            distances.fold(f64::INFINITY, f64::min)
+        };
+        let distances: Vec<f64> = interior.iter().map(to_rim).collect();
+        let farthest = distances.iter().copied().fold(0.0, f64::max);
+        for (p, distance) in interior.iter_mut().zip(&distances) {
+            let present = (*p - tip.center).dot(&tip.onwards);
+            *p += f64::max(distance / farthest * height - present, 0.0) * tip.onwards;
+        }
     }
 
     /// Moves points onto the surface; returns the longest way.
@@ -390,7 +423,7 @@ impl Marcher<'_> {
     /// The gates.
     fn check(&self, patch: &PatchSurface, faired: &PatchSurface) -> Result<()> {
         let (middle, diameter) = self.hole.middle_and_diameter();
-        let reach = REACH[usize::from(self.is_tip)] * diameter;
+        let reach = REACH[usize::from(self.tip.is_some())] * diameter;
         if patch.points.iter().any(|p| (p - middle).norm() > reach) {
             return Err(geometry("the predicted patch runs away from the hole"));
         }
@@ -403,7 +436,7 @@ impl Marcher<'_> {
         if folded >= FOLDED_SHARE.max(FOLDED_COUNT / count) {
             return Err(geometry("the predicted patch is folded"));
         }
-        if area(patch) > AREA_GROWTH[usize::from(self.is_tip)] * area(faired) {
+        if area(patch) > AREA_GROWTH[usize::from(self.tip.is_some())] * area(faired) {
             return Err(geometry("the predicted patch is far larger than the hole"));
         }
         proceed_unless(self.interrupted)?;

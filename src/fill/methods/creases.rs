@@ -103,7 +103,7 @@ impl Creases<'_> {
             hole: &shape,
             surface,
             step: self.step,
-            is_tip: false,
+            tip: None,
             interrupted: self.interrupted,
         };
         let (_, sizes) = staircase.refined()?;

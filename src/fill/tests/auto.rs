@@ -6,6 +6,7 @@ use crate::boundary::select::Selection;
 use crate::fill::method::Method;
 use crate::fixtures::{self, Arrays};
 use crate::math::Vec3;
+use std::f64::consts::TAU;
 
 /// The surface chosen for the only hole that was filled, and the largest distance of its new vertices.
 fn chosen_and_farthest(arrays: &Arrays, distance: impl Fn(&Vec3) -> f64) -> (Candidate, f64) {
@@ -54,6 +55,37 @@ fn windows_in_saddles_come_back() {
     let prediction = hole.unwrap().prediction.as_ref().unwrap();
     assert_eq!(prediction.chosen, Candidate::Quadric);
     assert!(farthest < 1e-3, "{farthest}");
+}
+
+/// A faired patch lies flat in the hole, and the shortest way from it to the cone leads to its flanks.
+#[test]
+fn tips_of_cones_come_back() {
+    let tube = fixtures::cylinder(24, 10);
+    let height = 1.5 * tube.positions.iter().map(|p| p[2]).fold(0.0, f64::max);
+    let arrays = tube.mapped(|[x, y, z]| [x * (1.0 - z / height), y * (1.0 - z / height), z]);
+    let filled = fill(&arrays, &all_but_the_largest(), &with_method(Method::Auto));
+    let hole = filled.report.holes.iter().find(|h| h.method.is_some());
+    let prediction = hole.unwrap().prediction.as_ref().unwrap();
+    assert_eq!(
+        (prediction.chosen, prediction.is_tip),
+        (Candidate::Cone, true)
+    );
+    let points = filled.new_points();
+    let missing = |points: &[Vec3]| height - points.iter().map(|p| p.z).fold(0.0, f64::max);
+    let rim_edge = (1.0 / 3.0) * TAU / 24.0;
+    assert!(
+        missing(&points).abs() < 3.0 * rim_edge,
+        "{}",
+        missing(&points)
+    );
+    let mut options = with_method(Method::Auto);
+    options.auto.tips = false;
+    let without = fill(&arrays, &all_but_the_largest(), &options);
+    let missed = missing(&without.new_points());
+    assert!(missed > 5.0 * rim_edge, "{missed}");
+    let off_cone = |p: &Vec3| (p.xy().norm() - (1.0 - p.z / height)).abs();
+    let farthest = points.iter().map(off_cone).fold(0.0, f64::max);
+    assert!(farthest < 0.01, "{farthest}");
 }
 
 #[test]

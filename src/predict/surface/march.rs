@@ -11,6 +11,10 @@ const CONVERGED_SHARE: f64 = 1e-5;
 /// Gradients of the functions are about one at the surface; below this they have no direction.
 const SMALLEST_GRADIENT: f64 = 1e-6;
 
+/// Places that are looked at for the way out of a surface, and halvings of what is between two of them.
+const WAY_STEPS: u32 = 200;
+const BISECTIONS: usize = 20;
+
 /// The point after at most `steps` Newton steps of at most the length `limit`.
 pub(crate) fn project(surface: &dyn Implicit, point: &Vec3, steps: usize, limit: f64) -> Vec3 {
     let mut p = *point;
@@ -34,4 +38,35 @@ pub(crate) fn project(surface: &dyn Implicit, point: &Vec3, steps: usize, limit:
 pub(crate) fn distance(surface: &dyn Implicit, point: &Vec3) -> f64 {
     let (value, gradient) = surface.value_and_gradient(point);
     value.abs() / gradient.norm().max(SMALLEST_GRADIENT)
+}
+
+/// How far from `origin`, along the unit vector `direction`, the surface is left first, at most `farthest`; `None`
+/// where it is not, and where the origin is not behind it.
+pub(crate) fn way_out(
+    surface: &dyn Implicit,
+    origin: &Vec3,
+    direction: &Vec3,
+    farthest: f64,
+) -> Option<f64> {
+    let value = |t: f64| surface.value_and_gradient(&(origin + t * direction)).0;
+    let steps = (0..=WAY_STEPS).map(|i| f64::from(i) / f64::from(WAY_STEPS) * farthest);
+    let (mut inside, mut outside) = (None, None);
+    for t in steps {
+        if value(t) < 0.0 {
+            inside = Some(t);
+        } else {
+            outside = Some(t);
+            break;
+        }
+    }
+    let (mut inside, mut outside) = (inside?, outside?);
+    for _ in 0..BISECTIONS {
+        let middle = (inside + outside) / 2.0;
+        if value(middle) < 0.0 {
+            inside = middle;
+        } else {
+            outside = middle;
+        }
+    }
+    Some(inside)
 }

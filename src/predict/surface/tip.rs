@@ -14,18 +14,24 @@ use nalgebra::{Matrix3, SymmetricEigen};
 /// Mean angle between the normals of the triangles at the rim and that of the rim's plane, at least.
 const STEEP: f64 = 60.0 * std::f64::consts::PI / 180.0;
 /// Spread of the rim across its plane over that along it, at most.
-const FLAT: f64 = 0.35;
+const FLAT: f64 = 0.5;
 /// Edges of the rim, fewer than this: the end of something wide is no tip.
 const SMALL: usize = 80;
 /// Mean component of the normals towards the hole, at least: 0 is a tube of constant width, which has no tip to grow.
 const CONVERGING: f64 = 0.08;
 
-/// A surface that closes is used when its score is within this factor of the best.
-const TOLERANCE: f64 = 1.3;
+/// A surface that closes is used when its score is within this factor of the best of those that may be used.
+const TOLERANCE: f64 = 1.5;
+/// The tip is further from the rim than any ring that was left out: surfaces with so much freedom bend on the way.
+const TOO_FREE: [Candidate; 2] = [Candidate::Cyclide, Candidate::Torus];
 
 /// The surface that closes a tip, if it predicts well: the quadric, or the cone where that has the better score.
 pub(crate) fn closing_candidate(scores: &[Score]) -> Option<Candidate> {
-    let best = scores.iter().map(|s| s.1).min_by(f64::total_cmp)?;
+    let best = scores
+        .iter()
+        .filter(|s| !TOO_FREE.contains(&s.0))
+        .map(|s| s.1)
+        .min_by(f64::total_cmp)?;
     let quadric = score_of(scores, Candidate::Quadric)?;
     let cone = score_of(scores, Candidate::Cone).filter(|&cone| cone < quadric);
     if quadric.min(cone.unwrap_or(quadric)) >= TOLERANCE * best {
@@ -37,12 +43,21 @@ pub(crate) fn closing_candidate(scores: &[Score]) -> Option<Candidate> {
     }
 }
 
+/// Where the missing tip of a horn begins and where to it points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tip {
+    /// The centroid of the rim.
+    pub(crate) center: Vec3,
+    /// Unit vector across the rim's plane, away from the surroundings.
+    pub(crate) onwards: Vec3,
+}
+
 /// Judges by the rim, its normals and the direction in which the surroundings end.
-pub(crate) fn is_tip(hole: &HoleShape, band: &Band) -> bool {
+pub(crate) fn find(hole: &HoleShape, band: &Band) -> Option<Tip> {
     let rim = &hole.points;
     let normals: Vec<Vec3> = hole.outside_normals.iter().flatten().copied().collect();
     if rim.len() >= SMALL || normals.is_empty() {
-        return false;
+        return None;
     }
     let mean = |points: &mut dyn Iterator<Item = Vec3>| {
         let (mut sum, mut count) = (Vec3::zeros(), 0.0);
@@ -63,7 +78,7 @@ pub(crate) fn is_tip(hole: &HoleShape, band: &Band) -> bool {
         spread += (p - center) * (p - center).transpose();
     }
     if !spread.iter().all(|x| x.is_finite()) {
-        return false;
+        return None;
     }
     let eigen = SymmetricEigen::new(spread);
     let across = eigen.eigenvalues.imin();
@@ -76,7 +91,8 @@ pub(crate) fn is_tip(hole: &HoleShape, band: &Band) -> bool {
         / count;
     let onwards = axis * (center - behind).dot(&axis).signum();
     let lean = normals.iter().map(|n| n.dot(&onwards)).sum::<f64>() / count;
-    angle > STEEP
+    let is_tip = angle > STEEP
         && eigen.eigenvalues[across] < FLAT * FLAT * eigen.eigenvalues.max()
-        && lean > CONVERGING
+        && lean > CONVERGING;
+    is_tip.then_some(Tip { center, onwards })
 }

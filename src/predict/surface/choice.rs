@@ -65,6 +65,9 @@ pub(crate) fn scores(
     let widest = (rim_edges.div_ceil(EDGES_PER_RING) as u32).clamp(1, MOST_LEFT_OUT);
     let mut scores: Vec<Score> = Vec::new();
     for &candidate in candidates {
+        if samples.is_stopped() {
+            break;
+        }
         let best = scores.iter().map(|s| s.1).fold(f64::INFINITY, f64::min);
         let is_settled = scores
             .iter()
@@ -129,6 +132,9 @@ fn leave_out_score(samples: &mut SampledBand, candidate: Candidate, widest: u32)
     let mut logarithms = 0.0;
     let mut count = 0;
     for r in 1..=widest {
+        if samples.is_stopped() {
+            return f64::INFINITY;
+        }
         let vertices = samples.spread(r..r + FITTED_RINGS + 1, candidate.most_samples());
         if vertices.len() < FEWEST_SAMPLES {
             continue;

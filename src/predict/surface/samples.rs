@@ -52,7 +52,8 @@ impl<'a> SampledBand<'a> {
         }
     }
 
-    /// The same, of no more use once `interrupted` returns true: then [`spread`](Self::spread) ends early.
+    /// The same, of no more use once `interrupted` returns true: then [`spread`](Self::spread) ends early, and so does
+    /// other work that asks [`is_stopped`](Self::is_stopped).
     pub(crate) fn stopped_by(mut self, interrupted: &'a dyn Fn() -> bool) -> Self {
         self.interrupted = interrupted;
         self
@@ -77,6 +78,11 @@ impl<'a> SampledBand<'a> {
             point: self.band.points[v],
             normal,
         }
+    }
+
+    /// Whether the caller asked to stop.
+    pub(crate) fn is_stopped(&self) -> bool {
+        (self.interrupted)()
     }
 
     /// The vertex moved onto a smooth surface through its neighbours, and the normal of that.
@@ -126,7 +132,7 @@ impl<'a> SampledBand<'a> {
         let mut chosen = Vec::with_capacity(MOST_SPREAD.min(vertices.len()));
         let mut next = farthest(&reach);
         reach.fill(f64::INFINITY);
-        while chosen.len() < MOST_SPREAD && !(self.interrupted)() {
+        while chosen.len() < MOST_SPREAD && !self.is_stopped() {
             let at = point(vertices[next]);
             chosen.push(vertices[next]);
             for (distance, &v) in reach.iter_mut().zip(&vertices) {

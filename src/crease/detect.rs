@@ -11,7 +11,7 @@
 //! `O(n log n)` for `n` known triangles.
 
 use super::facets::{Facets, SharedEdge};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::{Vec3, unit};
 use crate::patch::HoleShape;
 
@@ -59,17 +59,20 @@ pub(crate) struct CreaseEnd {
 /// Finds the regions round the hole; `None` when nothing but smooth surface surrounds it.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] when there are creases that cannot be used, with the reason.
-pub(crate) fn detect(hole: &HoleShape) -> Result<Option<Regions>> {
+/// [`ErrorKind::Geometry`] when there are creases that cannot be used, with the reason; [`ErrorKind::Cancelled`].
+pub(crate) fn detect(hole: &HoleShape, interrupted: &dyn Fn() -> bool) -> Result<Option<Regions>> {
+    proceed_unless(interrupted)?;
     let mut facets = Facets::new(hole);
     // Filtering averages: no two of these will ever make the angle of a crease.
     if facets.turn_less_than(LEAST_ANGLE / 2.0) {
         return Ok(None);
     }
     facets.find_edges();
-    facets.filter_normals();
+    facets.filter_normals(interrupted)?;
     let threshold = threshold(&facets);
+    proceed_unless(interrupted)?;
     let mut labels = Labels::new(&facets, threshold);
+    proceed_unless(interrupted)?;
     let at_rim = rim_faces(hole);
     labels.absorb_small_regions(&facets, &at_rim);
     if labels.count_at(at_rim.iter().flatten()) < 2 {

@@ -5,6 +5,7 @@
 //! normals are alike and so keeps creases. The width of "alike" follows from the normals themselves: a clean mesh is
 //! left as it is.
 
+use crate::error::{Result, proceed_unless};
 use crate::math::{Vec3, cross_normal, unit};
 use crate::patch::HoleShape;
 
@@ -108,7 +109,11 @@ impl<'a> Facets<'a> {
     }
 
     /// Filters noise from the normals.
-    pub(super) fn filter_normals(&mut self) {
+    ///
+    /// # Errors
+    /// `Cancelled` when `interrupted` returns true.
+    pub(super) fn filter_normals(&mut self, interrupted: &dyn Fn() -> bool) -> Result<()> {
+        proceed_unless(interrupted)?;
         let mut differences: Vec<f64> = self
             .edges
             .iter()
@@ -118,10 +123,11 @@ impl<'a> Facets<'a> {
         let median = differences.get(differences.len() / 2).copied();
         let width = (WIDTH_FACTOR * median.unwrap_or(0.0)).min(MOST_WIDTH);
         if width <= 0.0 {
-            return;
+            return Ok(());
         }
         let neighbors = self.neighbors();
         for _ in 0..ROUNDS {
+            proceed_unless(interrupted)?;
             let filtered = (0..self.normals.len()).map(|f| {
                 let own = self.normals[f];
                 let mut sum = self.areas[f] * own;
@@ -134,6 +140,7 @@ impl<'a> Facets<'a> {
             });
             self.normals = filtered.collect();
         }
+        Ok(())
     }
 
     /// The triangles that share a vertex with each triangle.

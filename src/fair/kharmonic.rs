@@ -73,6 +73,9 @@ pub(crate) fn fair(
         _ => Operator::new(&domain, order).normal_equations(&domain.points, interrupted)?,
     };
     let solution = solver.solve(matrix, &right_side)?;
+    // Giving back the memory of a large system takes milliseconds.
+    drop(domain);
+    proceed_unless(interrupted)?;
     surface.points[surface.rim_count..].copy_from_slice(&solution);
     Ok(())
 }
@@ -91,7 +94,11 @@ pub(crate) fn extend_from_rim(
     let around = Surroundings::default();
     let domain = Domain::new(surface, &around, 0, Weights::Uniform, interrupted)?;
     let (matrix, right_side) = membrane_equations(&domain, rim_values, interrupted)?;
-    solver.solve(matrix, &right_side)
+    let solution = solver.solve(matrix, &right_side)?;
+    // Giving back the memory of a large system takes milliseconds.
+    drop(domain);
+    proceed_unless(interrupted)?;
+    Ok(solution)
 }
 
 /// Extends values given at the rim and round it to the interior vertices, three at a time, by the minimum of

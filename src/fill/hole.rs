@@ -1,7 +1,7 @@
 //! One hole cut out of the mesh: its rim, the polygon to triangulate, and the triangles round it.
 
 use crate::boundary::loops::BoundaryLoop;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::{Vec3, cross_normal, unit};
 use crate::mesh::connectivity::target;
 use crate::mesh::rings::{Reach, collect_rings};
@@ -66,12 +66,13 @@ impl Hole {
     ///
     /// # Errors
     /// [`ErrorKind::InvalidInput`] for fewer than three edges, [`ErrorKind::Geometry`] when all vertices of
-    /// the rim coincide.
+    /// the rim coincide, [`ErrorKind::Cancelled`].
     pub(crate) fn new(
         mesh: &TriMesh,
         outer: &BoundaryLoop,
         islands: &[&BoundaryLoop],
         reach: HoleReach,
+        interrupted: &dyn Fn() -> bool,
     ) -> Result<Self> {
         if outer.edge_count() < 3 {
             return Err(Error::new(
@@ -83,6 +84,7 @@ impl Hole {
         for island in islands {
             polygon.join(mesh, Polygon::of_loop(mesh, island));
         }
+        proceed_unless(interrupted)?;
         let rim = distinct(&polygon.vertices);
         let rim_index = LocalIndex::new(rim.iter().zip(0..).map(|(&v, i)| (v, i)).collect());
         let polygon_indices: Vec<u32> = polygon
@@ -125,7 +127,9 @@ impl Hole {
             .flat_map(|l| l.halfedges.iter().copied())
             .collect();
         let points: Vec<Vec3> = rim.iter().map(|&v| to_local(v)).collect();
+        proceed_unless(interrupted)?;
         let joined = joined_rim_vertices(mesh, &rim, &rim_index);
+        proceed_unless(interrupted)?;
         let mut hole = Self {
             rim,
             outside_faces,
@@ -143,11 +147,15 @@ impl Hole {
             is_in_mesh: true,
         };
         hole.shape.surroundings = hole
-            .band(mesh, Reach::rings(reach.rings.max(1)))
+            .band(mesh, Reach::rings(reach.rings.max(1)), interrupted)?
             .surroundings;
+        proceed_unless(interrupted)?;
         if reach.steps > 0.0 {
-            hole.shape.surroundings = hole.band(mesh, hole.in_mesh(reach)).surroundings;
+            hole.shape.surroundings = hole
+                .band(mesh, hole.in_mesh(reach), interrupted)?
+                .surroundings;
         }
+        proceed_unless(interrupted)?;
         hole.shape.edge_lengths = mean_edge_lengths(&hole.shape.points, &hole.shape.surroundings);
         Ok(hole)
     }
@@ -161,8 +169,17 @@ impl Hole {
     }
 
     /// The triangles of `mesh` round the hole as far as `reach` says.
-    pub(crate) fn band(&self, mesh: &TriMesh, reach: Reach) -> Band {
-        let rings = collect_rings(mesh, &self.halfedges, reach);
+    ///
+    /// # Errors
+    /// [`ErrorKind::Cancelled`] when `interrupted` returns true.
+    pub(crate) fn band(
+        &self,
+        mesh: &TriMesh,
+        reach: Reach,
+        interrupted: &dyn Fn() -> bool,
+    ) -> Result<Band> {
+        let rings = collect_rings(mesh, &self.halfedges, reach, interrupted)?;
+        proceed_unless(interrupted)?;
         let mut band = Band::default();
         let mut local = Vec::with_capacity(rings.levels.len());
         for &(v, level) in &rings.levels {
@@ -183,7 +200,7 @@ impl Hole {
             .iter()
             .map(|&(f, _)| mesh.triangles()[f as usize].map(|v| local.get(v).unwrap_or(0)))
             .collect();
-        band
+        Ok(band)
     }
 
     /// The position in the mesh of a point in the hole's coordinates.

@@ -112,7 +112,7 @@ impl Planner<'_> {
             .map(|&m| PatchMaker::reach(m, self.options))
             .fold(HoleReach::rings(1), HoleReach::union);
         proceed_unless(self.interrupted)?;
-        let hole = Hole::new(self.mesh, outer, islands, reach)?;
+        let hole = Hole::new(self.mesh, outer, islands, reach, self.interrupted)?;
         proceed_unless(self.interrupted)?;
         self.plan_hole(hole, methods)
     }

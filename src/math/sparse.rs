@@ -113,6 +113,7 @@ impl<'a> SpdSolver<'a> {
         };
         self.symbolic = Some(symbolic);
         self.pattern = (matrix.column_starts, matrix.rows);
+        proceed_unless(self.interrupted)?;
         finite(solution)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::connectivity::{DEGENERATE, next, origin, previous};
 use super::trimesh::TriMesh;
+use crate::error::{Result, proceed_unless};
 use crate::math::segments::Segments;
 
 /// How far the rings round a rim go.
@@ -79,7 +80,15 @@ pub(crate) struct Rings {
 ///
 /// Cost follows the number of triangles collected, but for sorting them and, where the distance counts, a
 /// search among the rim's edges for each vertex.
-pub(crate) fn collect_rings(mesh: &TriMesh, rim_halfedges: &[u32], reach: Reach) -> Rings {
+///
+/// # Errors
+/// `Cancelled` when `interrupted`, which is asked at each ring, returns true.
+pub(crate) fn collect_rings(
+    mesh: &TriMesh,
+    rim_halfedges: &[u32],
+    reach: Reach,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<Rings> {
     let triangles = mesh.triangles();
     // A vertex with the halfedge through which it was met, so that the walk stays on its sheet. Each rim
     // vertex is the head of one rim halfedge.
@@ -94,6 +103,7 @@ pub(crate) fn collect_rings(mesh: &TriMesh, rim_halfedges: &[u32], reach: Reach)
     let mut known_faces: Vec<u32> = Vec::new();
     let mut rim_edges: Option<Segments> = None;
     for ring in 0.. {
+        proceed_unless(interrupted)?;
         if ring >= reach.rings && reach.distance > 0.0 {
             let rim_edges = rim_edges.get_or_insert_with(|| edges(mesh, rim_halfedges));
             let limit = reach.distance * reach.distance;
@@ -135,7 +145,7 @@ pub(crate) fn collect_rings(mesh: &TriMesh, rim_halfedges: &[u32], reach: Reach)
         known_faces.append(&mut met);
         known_faces.sort_unstable();
     }
-    Rings { faces, levels }
+    Ok(Rings { faces, levels })
 }
 
 fn edges(mesh: &TriMesh, halfedges: &[u32]) -> Segments {

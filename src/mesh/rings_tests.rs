@@ -1,7 +1,7 @@
 //! Rings of triangles round a rim against a breadth-first search over the whole mesh.
 
 use super::connectivity::DEGENERATE;
-use super::rings::{FanEnd, Reach, collect_rings, walk_fan};
+use super::rings::{FanEnd, Reach, Rings, collect_rings, walk_fan};
 use super::trimesh::TriMesh;
 use crate::boundary::loops::BoundaryLoops;
 use crate::fixtures::{self, Arrays};
@@ -9,6 +9,10 @@ use std::collections::BTreeSet;
 
 fn mesh_of(arrays: &Arrays) -> TriMesh {
     TriMesh::new(arrays.positions.clone(), arrays.triangles.clone()).unwrap()
+}
+
+fn collected(mesh: &TriMesh, rim_halfedges: &[u32], reach: Reach) -> Rings {
+    collect_rings(mesh, rim_halfedges, reach, &|| false).unwrap()
 }
 
 /// Levels of all vertices: edges between them and the nearest one of `rim`.
@@ -44,7 +48,7 @@ fn rings_are_those_of_a_breadth_first_search() {
         let mesh = mesh_of(&arrays);
         for l in &BoundaryLoops::find(&mesh).loops {
             let level = distances(&mesh, &l.vertices);
-            let rings = collect_rings(&mesh, &l.halfedges, Reach::rings(count));
+            let rings = collected(&mesh, &l.halfedges, Reach::rings(count));
             let expected: Vec<(u32, u32)> = (0..mesh.triangles().len())
                 .map(|f| (f as u32, mesh.triangles()[f].map(|v| level[v as usize])))
                 .map(|(f, levels)| (f, levels.into_iter().min().unwrap()))
@@ -74,14 +78,14 @@ fn a_sheet_that_only_touches_or_passes_close_by_is_not_collected() {
     let count = lower.triangles.len() as u32;
     for l in &BoundaryLoops::find(&mesh).loops {
         let is_lower = l.halfedges[0] / 3 < count;
-        let rings = collect_rings(&mesh, &l.halfedges, Reach::rings(3));
+        let rings = collected(&mesh, &l.halfedges, Reach::rings(3));
         assert!(rings.faces.iter().all(|&(f, _)| (f < count) == is_lower));
     }
     // The tongue shares one vertex with the rim, and its triangles are not round the hole.
     let mesh = mesh_of(&fixtures::tongue());
     let boundary = BoundaryLoops::find(&mesh);
     for l in &boundary.loops {
-        let rings = collect_rings(&mesh, &l.halfedges, Reach::rings(1));
+        let rings = collected(&mesh, &l.halfedges, Reach::rings(1));
         let is_tongue = |f: u32| {
             let c = mesh.corners(f).iter().sum::<crate::math::Vec3>() / 3.0;
             (2.0..4.0).contains(&c.x) && (2.0..4.0).contains(&c.y)
@@ -128,8 +132,8 @@ fn a_distance_collects_what_touches_a_vertex_nearer_than_it() {
         let distance = 2.5 * l.perimeter / l.vertices.len() as f64;
         for rings in [0, 1, 6] {
             let reach = Reach { rings, distance };
-            let found = collect_rings(&mesh, &l.halfedges, reach);
-            let whole = collect_rings(&mesh, &l.halfedges, Reach::rings(rings));
+            let found = collected(&mesh, &l.halfedges, reach);
+            let whole = collected(&mesh, &l.halfedges, Reach::rings(rings));
             let mut expected: Vec<u32> = (0..mesh.triangles().len() as u32)
                 .filter(|&f| {
                     let near = |p| segments.distance_sq(p) < distance * distance;

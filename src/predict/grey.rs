@@ -50,7 +50,7 @@ pub(crate) fn predict(
     most_points: usize,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<PatchSurface> {
-    let outside = Outside::new(hole);
+    let outside = Outside::new(hole, interrupted)?;
     let curves = |base: &[BasePoint], sections: &[Prepared]| -> Result<Predicted> {
         let mut all = Vec::with_capacity(sections.len());
         for section in sections {

@@ -47,7 +47,7 @@ pub(crate) fn predict(
     most_points: usize,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<PatchSurface> {
-    let outside = Outside::new(hole);
+    let outside = Outside::new(hole, interrupted)?;
     let surface = |base: &[BasePoint], sections: &[Prepared]| -> Result<Predicted> {
         let mut curves = Vec::with_capacity(sections.len());
         for section in sections {

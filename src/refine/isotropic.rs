@@ -150,6 +150,7 @@ pub(crate) fn refine(
         report: RefineReport::default(),
     };
     refiner.run()?;
+    proceed_unless(options.interrupted)?;
     surface.points = refiner.points;
     surface.triangles = refiner.mesh.triangles().to_vec();
     *sizes = refiner.sizes.into_sizes();
@@ -210,16 +211,19 @@ impl Refiner<'_> {
         let mut near: Option<Vec<u32>> = None;
         for _ in 0..MAX_PASSES {
             let before = self.mesh.vertex_count();
+            proceed_unless(self.options.interrupted)?;
             let long = match &near {
                 Some(near) => self.long_edges_at(near),
                 None => self.all_long_edges(),
             };
+            proceed_unless(self.options.interrupted)?;
             let added = self.split_edges(long)?;
             if added == 0 && near.take().is_none() {
                 break;
             }
             self.restore_dirty()?;
             let local = !self.order_if_grown()? && added < local_limit(before);
+            proceed_unless(self.options.interrupted)?;
             near = (local && added > 0).then(|| self.vertices_near(before as u32));
             for _ in 0..self.options.pass_relaxations {
                 match &near {

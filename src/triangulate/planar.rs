@@ -54,7 +54,7 @@ pub(crate) fn triangulate_planar_region(
             .iter()
             .map(|p| [p.x, p.y])
             .collect();
-        if let Some((i, j)) = find_contact(&rim) {
+        if let Some((i, j)) = find_contact(&rim, interrupted)? {
             return Err(geometry(format!(
                 "edges {i} and {j} of a polygon of {n} vertices meet in the plane"
             )));
@@ -94,6 +94,7 @@ pub(crate) fn triangulate_planar_region(
             return Err(geometry("two polygons meet in the plane".to_owned()));
         }
     }
+    proceed_unless(interrupted)?;
     let triangles = inner_triangles(&delaunay, &edges, is_outer_ccw);
     // A constraint through an interior point is cut in two there, so it leads no fill inside; a point
     // outside adds no triangle inside.

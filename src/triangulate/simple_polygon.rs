@@ -6,7 +6,12 @@
 //! The signs are those of exact arithmetic unless a product of two coordinate differences leaves the range of
 //! double precision; callers keep coordinates in it.
 
+use crate::error::{Result, proceed_unless};
 use robust::{Coord, orient2d};
+
+/// Edges that are compared with the others between two questions whether to stop: about a millisecond's work, in a
+/// polygon without a preferred direction.
+const EDGES_PER_CHECK: usize = 128;
 
 /// A point of the plane.
 pub(crate) type Point2 = [f64; 2];
@@ -17,13 +22,19 @@ pub(crate) type Point2 = [f64; 2];
 ///
 /// All coordinates must be finite.
 ///
+/// # Errors
+/// `Cancelled` when `interrupted` returns true.
+///
 /// # Complexity
 /// O(m log m) and one test for each pair of edges whose ranges of x overlap: about m^1.5 pairs for a polygon
 /// without a preferred direction, m² at worst.
-pub(crate) fn find_contact(polygon: &[Point2]) -> Option<(usize, usize)> {
+pub(crate) fn find_contact(
+    polygon: &[Point2],
+    interrupted: &dyn Fn() -> bool,
+) -> Result<Option<(usize, usize)>> {
     let m = polygon.len();
     if m < 3 {
-        return Some((0, 0));
+        return Ok(Some((0, 0)));
     }
     let ends = |i: usize| [polygon[i], polygon[(i + 1) % m]];
     let range = |i: usize, k: usize| {
@@ -33,8 +44,11 @@ pub(crate) fn find_contact(polygon: &[Point2]) -> Option<(usize, usize)> {
     let mut order: Vec<usize> = (0..m).collect();
     order.sort_by(|&i, &j| range(i, 0).0.total_cmp(&range(j, 0).0).then(i.cmp(&j)));
     for (place, &i) in order.iter().enumerate() {
+        if place.is_multiple_of(EDGES_PER_CHECK) {
+            proceed_unless(interrupted)?;
+        }
         if ends(i)[0] == ends(i)[1] {
-            return Some((i, i));
+            return Ok(Some((i, i)));
         }
         let (right, (low, high)) = (range(i, 0).1, range(i, 1));
         for &j in &order[place + 1..] {
@@ -53,11 +67,11 @@ pub(crate) fn find_contact(polygon: &[Point2]) -> Option<(usize, usize)> {
                 share_a_point(ends(i), ends(j))
             };
             if is_met {
-                return Some((i.min(j), i.max(j)));
+                return Ok(Some((i.min(j), i.max(j))));
             }
         }
     }
-    None
+    Ok(None)
 }
 
 /// Whether a simple polygon runs counter-clockwise.
@@ -107,6 +121,10 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    fn contact(polygon: &[Point2]) -> Option<(usize, usize)> {
+        find_contact(polygon, &|| false).unwrap()
+    }
+
     /// Every pair, by exact integer arithmetic on small coordinates.
     fn has_contact_slow(polygon: &[[i64; 2]]) -> bool {
         let m = polygon.len();
@@ -147,7 +165,7 @@ mod tests {
     fn regular_polygons_are_simple_and_turn_left() {
         for m in [3, 4, 50, 2000] {
             let mut polygon = regular(m);
-            assert_eq!(find_contact(&polygon), None);
+            assert_eq!(contact(&polygon), None);
             assert!(is_counter_clockwise(&polygon));
             polygon.reverse();
             assert!(!is_counter_clockwise(&polygon));
@@ -173,7 +191,7 @@ mod tests {
             ],
         ];
         for polygon in cases {
-            assert!(find_contact(polygon).is_some(), "{polygon:?}");
+            assert!(contact(polygon).is_some(), "{polygon:?}");
         }
     }
 
@@ -181,9 +199,9 @@ mod tests {
     fn a_vertex_one_bit_beside_an_edge_is_no_contact() {
         let tip = [0.5, f64::from_bits(0.5_f64.to_bits() + 1)];
         let mut polygon = vec![[0.0, 0.0], [1.0, 1.0], [1.0, 2.0], tip, [0.0, 2.0]];
-        assert_eq!(find_contact(&polygon), None);
+        assert_eq!(contact(&polygon), None);
         polygon[3] = [0.5, 0.5];
-        assert!(find_contact(&polygon).is_some());
+        assert!(contact(&polygon).is_some());
     }
 
     proptest! {
@@ -192,7 +210,7 @@ mod tests {
             points in prop::collection::vec([-4_i64..5, -4_i64..5], 3..9),
         ) {
             let polygon: Vec<Point2> = points.iter().map(|p| p.map(|x| x as f64)).collect();
-            prop_assert_eq!(find_contact(&polygon).is_some(), has_contact_slow(&points));
+            prop_assert_eq!(contact(&polygon).is_some(), has_contact_slow(&points));
         }
     }
 }

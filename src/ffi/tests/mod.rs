@@ -3,6 +3,8 @@
 mod calls;
 mod cancel;
 mod cost;
+#[cfg(unix)]
+mod latency;
 mod misuse;
 mod nulls;
 mod points;

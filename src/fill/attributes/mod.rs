@@ -151,7 +151,7 @@ impl AttributeTask<'_> {
             };
             reach = hole.in_mesh(vicinity);
         }
-        let band = hole.band(self.mesh, reach);
+        let band = hole.band(self.mesh, reach, self.interrupted)?;
         let known: Vec<Channel> = interpolated
             .into_iter()
             .filter_map(|c| self.channel(c, &band))
@@ -231,7 +231,12 @@ impl AttributeTask<'_> {
     }
 
     fn by_moving_least_squares(&self, band: &Band, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {
-        let field = HeightField::new(&self.hole.shape, &band.surroundings, &self.options.mls)?;
+        let field = HeightField::new(
+            &self.hole.shape,
+            &band.surroundings,
+            &self.options.mls,
+            self.interrupted,
+        )?;
         let values = |channel: &Channel| -> Vec<f64> {
             let vertices = field.vertices().iter();
             vertices.map(|&v| channel.values[v as usize]).collect()

@@ -47,6 +47,8 @@ const FINER_RIM: f64 = 0.8;
 
 /// Points that are moved onto the surface between two questions whether to stop: each may take a tenth of a millisecond.
 const POINTS_PER_CHECK: usize = 64;
+/// Triangles whose angles are measured between two questions whether to stop: about a millisecond's work.
+const TRIANGLES_PER_CHECK: usize = 8192;
 
 /// Smoothings of folded places, at most, each time.
 const MOST_UNFOLDINGS: usize = 20;
@@ -138,9 +140,9 @@ impl<'a> Auto<'a> {
             return Ok(patch);
         }
         staircase.check_interruption()?;
-        let surface = candidate
-            .fit_to_rim(&mut samples)
-            .ok_or_else(|| geometry("no surface fits the surroundings"))?;
+        let surface = candidate.fit_to_rim(&mut samples);
+        staircase.check_interruption()?;
+        let surface = surface.ok_or_else(|| geometry("no surface fits the surroundings"))?;
         let marcher = Marcher {
             hole: self.hole,
             surface: surface.as_ref(),
@@ -248,6 +250,8 @@ impl Auto<'_> {
             .filter(|c| Self::allows(self.options, *c, is_noisy))
             .collect();
         let scores = choice::scores(samples, &candidates, self.hole.polygon.len());
+        // Scores of work that was broken off say nothing.
+        proceed_unless(self.interrupted)?;
         let tip = self.tip(samples);
         let closing = tip
             .filter(|_| !choice::is_exact(&scores))
@@ -431,16 +435,18 @@ impl Marcher<'_> {
             return Err(geometry("the predicted patch is not finite"));
         }
         proceed_unless(self.interrupted)?;
-        let folded = folded_share(patch);
+        let folded = folded_share(patch, self.interrupted)?;
         let count = patch.triangles.len().max(1) as f64;
         if folded >= FOLDED_SHARE.max(FOLDED_COUNT / count) {
             return Err(geometry("the predicted patch is folded"));
         }
+        proceed_unless(self.interrupted)?;
         if area(patch) > AREA_GROWTH[usize::from(self.tip.is_some())] * area(faired) {
             return Err(geometry("the predicted patch is far larger than the hole"));
         }
         proceed_unless(self.interrupted)?;
         let bent = self.bent_share(patch);
+        proceed_unless(self.interrupted)?;
         if bent > BENT_SHARE && bent > self.bent_share(faired) {
             return Err(geometry("the predicted patch leaves the rim at an angle"));
         }
@@ -491,9 +497,12 @@ fn area(patch: &PatchSurface) -> f64 {
 }
 
 /// Share of triangles that turn away from their surroundings.
-fn folded_share(patch: &PatchSurface) -> f64 {
+fn folded_share(patch: &PatchSurface, interrupted: &dyn Fn() -> bool) -> Result<f64> {
     let mut at_vertices = vec![Vec3::zeros(); patch.points.len()];
-    for t in &patch.triangles {
+    for (i, t) in patch.triangles.iter().enumerate() {
+        if i.is_multiple_of(TRIANGLES_PER_CHECK) {
+            proceed_unless(interrupted)?;
+        }
         let n = normal(patch, t);
         for k in 0..3 {
             let p = [0, 1, 2].map(|i| patch.points[t[(k + i) % 3] as usize]);
@@ -501,12 +510,13 @@ fn folded_share(patch: &PatchSurface) -> f64 {
             at_vertices[t[k] as usize] += angle * n;
         }
     }
+    proceed_unless(interrupted)?;
     let is_folded = |t: &[u32; 3]| {
         let mean: Vec3 = t.iter().map(|&v| unit(at_vertices[v as usize])).sum();
         normal(patch, t).dot(&unit(mean)) < FOLDED
     };
     let folded = patch.triangles.iter().filter(|t| is_folded(t)).count();
-    folded as f64 / patch.triangles.len().max(1) as f64
+    Ok(folded as f64 / patch.triangles.len().max(1) as f64)
 }
 
 fn geometry(message: &str) -> Error {

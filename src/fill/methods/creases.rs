@@ -8,7 +8,7 @@
 use super::auto::{Auto, Marcher};
 use super::staircase::Staircase;
 use crate::crease::detect::{Regions, detect};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::fill::method::Method;
 use crate::fill::options::FillOptions;
 use crate::math::{Vec3, unit};
@@ -53,18 +53,19 @@ impl Creases<'_> {
     /// Why creases that were found are not used: [`ErrorKind::Geometry`] and those of the steps;
     /// [`ErrorKind::Cancelled`].
     pub(super) fn patch(&self) -> Result<Option<CreasePatch>> {
-        let Some(mut regions) = detect(self.hole)? else {
+        let Some(mut regions) = detect(self.hole, self.interrupted)? else {
             return Ok(None);
         };
         let allowed =
             |candidate: Candidate, is_noisy| Auto::allows(self.options, candidate, is_noisy);
-        let surfaces = fit_regions(self.hole, &regions, self.step, &allowed)?;
+        let surfaces = fit_regions(self.hole, &regions, self.step, &allowed, self.interrupted)?;
         let score = common_score(&regions, &surfaces);
         if score > self.smooth_score {
             return unusable("a smooth surface predicts the surroundings better than creases do");
         }
         let implicit: Vec<&dyn Implicit> = surfaces.iter().map(|s| s.surface.as_ref()).collect();
         slide_ends(self.hole, &mut regions, &implicit, self.step)?;
+        proceed_unless(self.interrupted)?;
         let partition = partition(self.hole, &regions, &implicit, self.step)?;
         let mut surface = PatchSurface {
             rim_count: self.hole.points.len(),
@@ -75,6 +76,7 @@ impl Creases<'_> {
         for face in &partition.faces {
             self.fill(face, &partition, &regions, &implicit, &mut surface)?;
         }
+        proceed_unless(self.interrupted)?;
         if self.intersects(&surface) {
             return unusable("the patch with creases intersects itself or its surroundings");
         }

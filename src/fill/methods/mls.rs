@@ -22,7 +22,7 @@ pub(crate) fn patch(
     options: &FillOptions,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<PatchSurface> {
-    let field = HeightField::new(hole, &hole.surroundings, &options.mls)?;
+    let field = HeightField::new(hole, &hole.surroundings, &options.mls, interrupted)?;
     let mut surface = field.patch(options.max_new_vertices, interrupted)?;
     // Delaunay in the domain is not Delaunay on a steep surface.
     let flips_only = RefineOptions {

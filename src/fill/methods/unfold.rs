@@ -4,7 +4,7 @@
 //! curve unfolding", SMI 2009, sections 3.2 and 3.3. Unlike there, refinement works on the embedded patch and
 //! again on its final shape, and both energies are minimised exactly, by one sparse system each.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::fair::kharmonic::{Order, fair};
 use crate::fair::laplacian::Weights;
 use crate::fill::method::Method;
@@ -23,6 +23,9 @@ const ROUNDS: usize = 4;
 /// Relaxations of the patch before it gets its shape: more than the staircase needs, for the triangles of the
 /// plane may be far from what suits the rim in space.
 const RELAXATIONS: usize = 5;
+
+/// Triangles whose edges are compared with all others between two questions whether to stop.
+const TRIANGLES_PER_CHECK: usize = 64;
 
 /// Builds patches for one hole; the unfolding is done once.
 pub(crate) struct Unfold<'a> {
@@ -112,14 +115,17 @@ impl<'a> Unfold<'a> {
                 .map(|t| t.map(|position| hole.polygon[position as usize]))
                 .collect(),
         };
-        self.split_joined_chords(&mut surface);
+        self.split_joined_chords(&mut surface)?;
         Ok(surface)
     }
 
     /// Splits the edges between two rim vertices that the mesh joins already, other than those of the rim.
-    fn split_joined_chords(&self, surface: &mut PatchSurface) {
+    fn split_joined_chords(&self, surface: &mut PatchSurface) -> Result<()> {
         let mut t = 0;
         while t < surface.triangles.len() {
+            if t.is_multiple_of(TRIANGLES_PER_CHECK) {
+                proceed_unless(self.interrupted)?;
+            }
             for k in 0..3 {
                 let [a, b, c] = rotated(surface.triangles[t], k);
                 if (a.max(b) as usize) >= surface.rim_count || !self.hole.is_joined(a, b) {
@@ -145,6 +151,7 @@ impl<'a> Unfold<'a> {
             }
             t += 1;
         }
+        Ok(())
     }
 
     /// Refines the patch, and returns whether that added vertices.

@@ -16,7 +16,10 @@ use crate::patch::PatchSurface;
 fn hole_and_patch(arrays: &Arrays, method: Method) -> (TriMesh, Hole, PatchSurface) {
     let mesh = mesh_of(arrays);
     let boundary = BoundaryLoops::find(&mesh);
-    let hole = Hole::new(&mesh, &boundary.loops[0], &[], HoleReach::rings(2)).unwrap();
+    let hole = Hole::new(&mesh, &boundary.loops[0], &[], HoleReach::rings(2), &|| {
+        false
+    })
+    .unwrap();
     let options = with_method(method);
     let surface = PatchMaker::new(&hole.shape, &options, &|| false)
         .patch(method)
@@ -157,7 +160,10 @@ fn an_edge_that_the_mesh_has_already_is_caught() {
     // The rim of two triangles: its diagonal 1-2 is taken, 0-3 is free.
     let mesh = mesh_of(&fixtures::two_triangles());
     let boundary = BoundaryLoops::find(&mesh);
-    let hole = Hole::new(&mesh, &boundary.loops[0], &[], HoleReach::rings(1)).unwrap();
+    let hole = Hole::new(&mesh, &boundary.loops[0], &[], HoleReach::rings(1), &|| {
+        false
+    })
+    .unwrap();
     let at = |v: u32| hole.rim.iter().position(|&r| r == v).unwrap() as u32;
     let patch = |triangles: [[u32; 3]; 2]| PatchSurface {
         rim_count: 4,
@@ -190,7 +196,10 @@ fn an_edge_that_the_mesh_has_already_is_caught() {
 fn a_rim_that_was_closed_in_the_meantime_is_caught() {
     let mut mesh = mesh_of(&fixtures::triangle().with_vertex([0.0, 0.0, 1.0]));
     let boundary = BoundaryLoops::find(&mesh);
-    let hole = Hole::new(&mesh, &boundary.loops[0], &[], HoleReach::rings(1)).unwrap();
+    let hole = Hole::new(&mesh, &boundary.loops[0], &[], HoleReach::rings(1), &|| {
+        false
+    })
+    .unwrap();
     let tent = [[1, 0, 3], [2, 1, 3], [0, 2, 3]];
     assert_eq!(kind(check_against_mesh(&mesh, &hole, &tent)), None);
     let lid = [[0, 2, 1]];
@@ -213,7 +222,10 @@ fn the_coordinates_of_a_hole_are_those_of_the_mesh_moved_and_scaled() {
         .moved(1e3, 1.0, [1e6, 0.0, -1e6]);
     let mesh = mesh_of(&arrays);
     let boundary = BoundaryLoops::find(&mesh);
-    let hole = Hole::new(&mesh, &boundary.loops[0], &[], HoleReach::rings(2)).unwrap();
+    let hole = Hole::new(&mesh, &boundary.loops[0], &[], HoleReach::rings(2), &|| {
+        false
+    })
+    .unwrap();
     let n = hole.rim.len();
     assert!(hole.shape.points.iter().sum::<Vec3>().norm() < 1e-6);
     let perimeter: f64 = (0..n)

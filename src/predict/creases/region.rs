@@ -5,7 +5,7 @@
 //! by the function that interpolates it.
 
 use crate::crease::detect::Regions;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::patch::HoleShape;
 use crate::predict::surface::algebraic::{AlgebraicSurface, Kind};
 use crate::predict::surface::candidates::Candidate;
@@ -63,22 +63,25 @@ fn region_shape(hole: &HoleShape, faces: &[u32]) -> HoleShape {
 /// may be used.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] when a region is too small.
+/// [`ErrorKind::Geometry`] when a region is too small; [`ErrorKind::Cancelled`].
 pub(crate) fn fit_regions(
     hole: &HoleShape,
     regions: &Regions,
     step: f64,
     allowed: &dyn Fn(Candidate, bool) -> bool,
+    interrupted: &dyn Fn() -> bool,
 ) -> Result<Vec<RegionSurface>> {
     let fit = |faces: &Vec<u32>| {
+        proceed_unless(interrupted)?;
         let band = Band::new(&region_shape(hole, faces));
-        let mut samples = SampledBand::new(band, step, true);
+        let mut samples = SampledBand::new(band, step, true).stopped_by(interrupted);
         let is_noisy = samples.is_noisy();
         let candidates: Vec<Candidate> = Candidate::ALL
             .into_iter()
             .filter(|c| allowed(*c, is_noisy))
             .collect();
         let scores = choice::scores(&mut samples, &candidates, hole.polygon.len());
+        proceed_unless(interrupted)?;
         if let Some(candidate) = choice::choose(&scores, is_noisy)
             && let Some(surface) = candidate.fit_to_rim(&mut samples)
         {

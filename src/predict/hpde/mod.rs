@@ -29,7 +29,7 @@ pub(crate) use outside::{Known, Outside};
 pub(crate) use sections::{Predicted, Prepared};
 
 use super::surface::jets::Band;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::Vec3;
 use crate::patch::{HoleShape, PatchSurface};
 use crate::triangulate::planar::triangulate_planar_region;
@@ -55,6 +55,9 @@ const MOST_OUTSIDE: f64 = 0.2;
 
 /// Points at which the patch folds are left out, and what is left is triangulated anew, this many times at most.
 const MOST_ROUNDS: usize = 12;
+
+/// Normals that are fitted between two questions whether to stop.
+const NORMALS_PER_CHECK: usize = 256;
 
 /// The patch for `hole`, with at most `most_points` new vertices.
 ///
@@ -91,7 +94,7 @@ pub(crate) fn patch_along(
     interrupted: &dyn Fn() -> bool,
 ) -> Result<PatchSurface> {
     check_simple(hole)?;
-    let rim = read_rim(hole, options)?;
+    let rim = read_rim(hole, options, interrupted)?;
     let mut base = base_points(&rim, options.base_spacing);
     let n = base.len();
     // Step 3: the sequence in which partners are known, and where it is folded.
@@ -149,7 +152,11 @@ pub(crate) fn patch_along(
 }
 
 /// The rim as the prediction sees it, smoothed on request together with its surroundings.
-fn read_rim(hole: &HoleShape, options: &HpdeOptions) -> Result<Rim> {
+fn read_rim(
+    hole: &HoleShape,
+    options: &HpdeOptions,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<Rim> {
     let mut seen = Cow::Borrowed(hole);
     if options.denoise > 0 {
         denoise(seen.to_mut(), options.denoise);
@@ -157,12 +164,16 @@ fn read_rim(hole: &HoleShape, options: &HpdeOptions) -> Result<Rim> {
     let normals = match options.tangents {
         HpdeTangents::Chord => None,
         HpdeTangents::Jet => {
+            proceed_unless(interrupted)?;
             let band = Band::new(&seen);
-            let rim = 0..seen.points.len() as u32;
-            Some(
-                rim.map(|v| band.interpolating_normal(v))
-                    .collect::<Vec<Vec3>>(),
-            )
+            let mut normals = Vec::with_capacity(seen.points.len());
+            for v in 0..seen.points.len() {
+                if v.is_multiple_of(NORMALS_PER_CHECK) {
+                    proceed_unless(interrupted)?;
+                }
+                normals.push(band.interpolating_normal(v as u32));
+            }
+            Some(normals)
         }
     };
     let in_order = |values: &[Vec3]| -> Vec<Vec3> {

@@ -3,8 +3,10 @@
 //! A section plane is followed through the known triangles, from edge to edge. `O(steps)` per section, once the
 //! edges are sorted.
 
+use super::NORMALS_PER_CHECK;
 use super::base_points::BasePoint;
 use super::sections::Prepared;
+use crate::error::{Result, proceed_unless};
 use crate::math::{Vec3, unit};
 use crate::patch::HoleShape;
 use crate::predict::surface::jets::Band;
@@ -31,7 +33,11 @@ pub(crate) struct Outside<'a> {
 }
 
 impl<'a> Outside<'a> {
-    pub(crate) fn new(hole: &'a HoleShape) -> Self {
+    /// Reads the surroundings of a hole.
+    ///
+    /// # Errors
+    /// `Cancelled` when `interrupted` returns true.
+    pub(crate) fn new(hole: &'a HoleShape, interrupted: &dyn Fn() -> bool) -> Result<Self> {
         let mut edges: Vec<(u32, u32, u32)> = hole
             .surroundings
             .triangles
@@ -39,18 +45,22 @@ impl<'a> Outside<'a> {
             .flat_map(|&[a, b, c]| [(a, b, c), (b, c, a), (c, a, b)])
             .collect();
         edges.sort_unstable();
+        proceed_unless(interrupted)?;
         let band = Band::new(hole);
         let mut normals = band.triangle_normals.clone();
         // Those of triangles would lean to one side at the rim.
-        for v in 0..hole.points.len() as u32 {
-            normals[v as usize] = band.interpolating_normal(v);
+        for (v, normal) in normals[..hole.points.len()].iter_mut().enumerate() {
+            if v.is_multiple_of(NORMALS_PER_CHECK) {
+                proceed_unless(interrupted)?;
+            }
+            *normal = band.interpolating_normal(v as u32);
         }
-        Self {
+        Ok(Self {
             hole,
             points: band.points,
             normals,
             edges,
-        }
+        })
     }
 
     fn point(&self, v: u32) -> Vec3 {
@@ -196,7 +206,7 @@ mod tests {
         let normal = Vec3::new(-0.5, 0.0, 1.0).normalize();
         let rim = Rim::new(hole.points.clone(), vec![normal; 16], None, 1.0);
         let base = base_points(&rim, 0.7);
-        let outside = Outside::new(&hole);
+        let outside = Outside::new(&hole, &|| false).unwrap();
         let mut count = 0;
         for b in &base {
             // A plane that leaves the side of the hole at y = 5 straight away from it.
@@ -228,7 +238,7 @@ mod tests {
         let hole = sheet(|_, _| 0.0);
         let rim = Rim::new(hole.points.clone(), vec![Vec3::z(); 16], None, 1.0);
         let base = base_points(&rim, 0.7);
-        let outside = Outside::new(&hole);
+        let outside = Outside::new(&hole, &|| false).unwrap();
         let section = Prepared {
             ahead: Vec3::x(),
             ..Prepared::default()

@@ -7,6 +7,9 @@ use crate::triangulate::simple_polygon::Point2;
 const CLEARANCE: f64 = 0.5;
 /// Largest number of grid lines that a hole may span: more would not be counted exactly by what follows.
 const MOST_LINES: f64 = 1e9;
+/// Edges of the loops, and lines of the grid, between two questions whether to stop.
+const EDGES_PER_CHECK: usize = 1024;
+const LINES_PER_CHECK: usize = 32;
 
 /// The points of the grid of width `step` about the origin that lie inside the `loops` (by the parity of
 /// crossings, so that an inner loop bounds an island) and not nearer to them than half a step, in scan order:
@@ -31,7 +34,9 @@ pub(crate) fn resampling_positions(
     let mut near: Vec<(i64, i64)> = Vec::new();
     for of_loop in loops {
         for (i, &a) in of_loop.iter().enumerate() {
-            proceed_every(i, interrupted)?;
+            if i.is_multiple_of(EDGES_PER_CHECK) {
+                proceed_unless(interrupted)?;
+            }
             let b = of_loop[(i + 1) % of_loop.len()];
             let edge = [a, b].map(|p| p.map(|x| x / step));
             if !edge.iter().flatten().all(|x| x.abs() < MOST_LINES) {
@@ -50,7 +55,9 @@ pub(crate) fn resampling_positions(
     near.dedup();
     let mut samples = Vec::new();
     for (line, pair) in crossings.chunks_exact(2).enumerate() {
-        proceed_every(line, interrupted)?;
+        if line.is_multiple_of(LINES_PER_CHECK) {
+            proceed_unless(interrupted)?;
+        }
         let [(row, from), (_, to)] = [pair[0], pair[1]];
         let first = from.ceil() as i64;
         let last = to.floor() as i64;
@@ -67,14 +74,6 @@ pub(crate) fn resampling_positions(
         }
     }
     Ok(samples)
-}
-
-/// Edges between two questions whether to stop.
-fn proceed_every(count: usize, interrupted: &dyn Fn() -> bool) -> Result<()> {
-    if count.is_multiple_of(1024) {
-        proceed_unless(interrupted)?;
-    }
-    Ok(())
 }
 
 /// Where the edge crosses the lines of the grid: a line belongs to what lies above it.

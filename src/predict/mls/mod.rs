@@ -107,21 +107,24 @@ impl<'a> HeightField<'a> {
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`] when the vicinity does not project one-to-one onto the domain, or there is no
-    /// domain; [`ErrorKind::Topology`] when an island touches the rim.
+    /// domain; [`ErrorKind::Topology`] when an island touches the rim; [`ErrorKind::Cancelled`].
     pub(crate) fn new(
         hole: &'a HoleShape,
         surroundings: &Surroundings,
         options: &'a MlsOptions,
+        interrupted: &dyn Fn() -> bool,
     ) -> Result<Self> {
         let loops = rim_loops(hole)?;
+        proceed_unless(interrupted)?;
         let vicinity = Vicinity::new(hole, surroundings, options.beta)?;
+        proceed_unless(interrupted)?;
         let rim: Vec<Vec3> = hole
             .polygon
             .iter()
             .map(|&v| hole.points[v as usize])
             .collect();
         let on = |domain: Domain| {
-            let projection = Projection::new(&domain, &vicinity, &loops)?;
+            let projection = Projection::new(&domain, &vicinity, &loops, interrupted)?;
             Ok((domain, projection))
         };
         let plane = || Domain::plane(&vicinity, &rim).and_then(on);
@@ -306,8 +309,14 @@ impl Projection {
     /// Takes the places of the vicinity's points.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] when they are not in one-to-one relation with the points.
-    fn new(domain: &Domain, vicinity: &Vicinity, loops: &[Vec<u32>]) -> Result<Self> {
+    /// [`ErrorKind::Geometry`] when they are not in one-to-one relation with the points; [`ErrorKind::Cancelled`].
+    fn new(
+        domain: &Domain,
+        vicinity: &Vicinity,
+        loops: &[Vec<u32>],
+        interrupted: &dyn Fn() -> bool,
+    ) -> Result<Self> {
+        proceed_unless(interrupted)?;
         let places: Vec<Place> = vicinity.points.iter().map(|p| domain.place(p)).collect();
         let (mut turned, mut all, mut in_space) = (0.0, 0.0, 0.0);
         for t in &vicinity.triangles {
@@ -333,7 +342,7 @@ impl Projection {
                 let message = format!("the rim has no place in {onto}");
                 return Err(Error::new(ErrorKind::Geometry, message));
             }
-            if let Some((i, j)) = find_contact(&polygon) {
+            if let Some((i, j)) = find_contact(&polygon, interrupted)? {
                 let message = format!("edges {i} and {j} of the rim meet in {onto}");
                 return Err(Error::new(ErrorKind::Geometry, message));
             }

@@ -61,7 +61,7 @@ fn hole_in_grid(f: impl Fn(f64, f64) -> Vec3, n: i32, radius: f64) -> HoleShape 
 }
 
 fn filled(hole: &HoleShape, options: &MlsOptions) -> Result<PatchSurface> {
-    HeightField::new(hole, &hole.surroundings, options)?.patch(100_000, &|| false)
+    HeightField::new(hole, &hole.surroundings, options, &|| false)?.patch(100_000, &|| false)
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn what_folds_in_the_plane_is_refused_and_filled_over_the_sphere() {
 fn other_values_are_extended_like_the_heights() {
     let hole = hole_in_grid(|u, v| Vec3::new(u, v, 0.1 * u * v), 12, 0.5);
     let options = MlsOptions::default();
-    let field = HeightField::new(&hole, &hole.surroundings, &options).unwrap();
+    let field = HeightField::new(&hole, &hole.surroundings, &options, &|| false).unwrap();
     let value = |p: &Vec3| 3.0 + p.x - p.x * p.y;
     let known = field
         .vertices()
@@ -149,7 +149,7 @@ fn other_values_are_extended_like_the_heights() {
 fn limits_and_interruptions_are_errors() {
     let hole = hole_in_grid(|u, v| Vec3::new(u, v, 0.0), 12, 0.5);
     let options = MlsOptions::default();
-    let field = HeightField::new(&hole, &hole.surroundings, &options).unwrap();
+    let field = HeightField::new(&hole, &hole.surroundings, &options, &|| false).unwrap();
     assert_eq!(
         field.patch(10, &|| false).unwrap_err().kind(),
         ErrorKind::Limit

@@ -70,6 +70,9 @@ pub(crate) fn scores(
     let mut scores: Vec<Score> = Vec::new();
     let mut race = Race::default();
     for &candidate in candidates {
+        if samples.is_stopped() {
+            break;
+        }
         let best = scores.iter().map(|s| s.1).fold(f64::INFINITY, f64::min);
         let is_settled = scores
             .iter()
@@ -144,6 +147,9 @@ impl Race {
         let mut logarithms = 0.0;
         let mut means = Vec::new();
         for r in 1..=widest {
+            if samples.is_stopped() {
+                return f64::INFINITY;
+            }
             let vertices = samples.spread(r..r + FITTED_RINGS + 1, candidate.most_scored());
             if vertices.len() < FEWEST_SAMPLES {
                 continue;

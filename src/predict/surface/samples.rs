@@ -50,7 +50,8 @@ impl<'a> SampledBand<'a> {
         }
     }
 
-    /// The same, of no more use once `interrupted` returns true: then [`spread`](Self::spread) ends early.
+    /// The same, of no more use once `interrupted` returns true: then [`spread`](Self::spread) ends early, and so does
+    /// other work that asks [`is_stopped`](Self::is_stopped).
     pub(crate) fn stopped_by(mut self, interrupted: &'a dyn Fn() -> bool) -> Self {
         self.interrupted = interrupted;
         self
@@ -75,6 +76,11 @@ impl<'a> SampledBand<'a> {
             point: self.band.points[v],
             normal,
         }
+    }
+
+    /// Whether the caller asked to stop.
+    pub(crate) fn is_stopped(&self) -> bool {
+        (self.interrupted)()
     }
 
     /// The vertex moved onto a smooth surface through its neighbours, and the normal of that.
@@ -123,7 +129,7 @@ impl<'a> SampledBand<'a> {
         let mut chosen = Vec::with_capacity(most.min(vertices.len()));
         let mut next = farthest(&reach);
         reach.fill(f64::INFINITY);
-        while chosen.len() < most && !(self.interrupted)() {
+        while chosen.len() < most && !self.is_stopped() {
             let at = points[next];
             chosen.push(vertices[next]);
             for (distance, p) in reach.iter_mut().zip(&points) {

@@ -114,7 +114,7 @@ pub(crate) fn unfold(
 ) -> Result<Unfolding> {
     let curve = in_mean_edges(points)?;
     if options.solver == UnfoldSolver::Descent
-        && let Some(polygon) = onto_best_plane(&curve)
+        && let Some(polygon) = onto_best_plane(&curve, interrupted)?
     {
         return Ok(unfolded(&curve, polygon, 0, 0));
     }
@@ -182,7 +182,7 @@ fn descend(
         if !descent.step() {
             break;
         }
-        if let Some(polygon) = onto_best_plane(descent.points()) {
+        if let Some(polygon) = onto_best_plane(descent.points(), interrupted)? {
             return Ok(Some((polygon, step)));
         }
     }
@@ -204,7 +204,8 @@ fn anneal(
         }
         accepted += usize::from(annealing.step());
     }
-    Ok(onto_best_plane(annealing.points()).map(|polygon| (polygon, accepted)))
+    let polygon = onto_best_plane(annealing.points(), interrupted)?;
+    Ok(polygon.map(|polygon| (polygon, accepted)))
 }
 
 /// The curve about its centroid, in units of its mean edge length.

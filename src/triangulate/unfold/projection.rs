@@ -8,19 +8,24 @@
 //! just when its end is, that is when the projected polygon is simple; this is decided by exact predicates.
 
 use super::super::simple_polygon::{Point2, find_contact};
+use crate::error::Result;
 use crate::math::Vec3;
 use crate::math::plane::principal_axes;
 
 /// The polygon projected onto its plane of least squares, if it is simple there.
-pub(super) fn onto_best_plane(points: &[Vec3]) -> Option<Vec<Point2>> {
-    let (centroid, axes) = principal_axes(points);
-    simple(points, &centroid, &axes[0], &axes[1])
-}
-
-fn simple(points: &[Vec3], origin: &Vec3, x: &Vec3, y: &Vec3) -> Option<Vec<Point2>> {
+///
+/// # Errors
+/// `Cancelled` when `interrupted` returns true.
+pub(super) fn onto_best_plane(
+    points: &[Vec3],
+    interrupted: &dyn Fn() -> bool,
+) -> Result<Option<Vec<Point2>>> {
+    let (centroid, [x, y, _]) = principal_axes(points);
     let flat: Vec<Point2> = points
         .iter()
-        .map(|p| [(p - origin).dot(x), (p - origin).dot(y)])
+        .map(|p| [(p - centroid).dot(&x), (p - centroid).dot(&y)])
         .collect();
-    (flat.iter().flatten().all(|c| c.is_finite()) && find_contact(&flat).is_none()).then_some(flat)
+    let is_simple =
+        flat.iter().flatten().all(|c| c.is_finite()) && find_contact(&flat, interrupted)?.is_none();
+    Ok(is_simple.then_some(flat))
 }

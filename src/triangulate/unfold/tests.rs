@@ -174,7 +174,8 @@ fn a_strip_that_winds_round_a_cylinder_is_unfolded() {
     for turns in [0.5, 1.0, 1.5] {
         let unfolding = unfold(&strip(80, turns), &UnfoldOptions::default(), 0, &|| false).unwrap();
         assert_eq!(
-            crate::triangulate::simple_polygon::find_contact(&unfolding.polygon),
+            crate::triangulate::simple_polygon::find_contact(&unfolding.polygon, &|| false)
+                .unwrap(),
             None
         );
         assert!((unfolding.winding.abs() - 1.0).abs() < 1e-9);

@@ -56,7 +56,7 @@ Arrays to_arrays(const CgalMesh& mesh) {
 PeerFill fill_by_cgal(const Case& c, int continuity) {
     PeerFill out;
     CgalMesh mesh;
-    if (!build(c.input, mesh).empty()) {
+    if (!refused(build(c.input, mesh)).empty()) {
         out.failure = "Surface_mesh does not take the input";
         return out;
     }
@@ -85,7 +85,7 @@ PeerFill fill_by_cgal(const Case& c, int continuity) {
 
 bool fair_by_cgal(Arrays& arrays, std::size_t first, unsigned continuity) {
     CgalMesh mesh;
-    if (!build(arrays, mesh).empty()) return false;
+    if (!refused(build(arrays, mesh)).empty()) return false;
     std::vector<CgalMesh::Vertex_index> vertices;
     for (std::size_t v = first; v < arrays.points.size(); ++v)
         vertices.push_back(CgalMesh::Vertex_index(static_cast<std::uint32_t>(v)));

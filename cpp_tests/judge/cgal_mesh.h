@@ -9,6 +9,8 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <vector>
+
 namespace judge {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -17,25 +19,37 @@ using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 inline Kernel::Point_3 to_cgal(const Point& p) { return {p[0], p[1], p[2]}; }
 inline Point from_cgal(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
-// Adds the triangles to an empty mesh; faces have the numbers of the triangles when all are taken. A triangle that is
-// refused is tried again when others are in. Returns those that are refused for good.
-inline std::vector<std::size_t> build(const Arrays& arrays, CgalMesh& mesh) {
+// The face of each triangle, where there is one.
+using Faces = std::vector<CgalMesh::Face_index>;
+
+// Adds the triangles to an empty mesh. A triangle that is refused is tried again when others are in, so faces need not
+// have the order of the triangles. Those that are refused for good have the null face.
+inline Faces build(const Arrays& arrays, CgalMesh& mesh) {
     for (const Point& p : arrays.points) mesh.add_vertex(to_cgal(p));
-    std::vector<std::size_t> pending(arrays.triangles.size());
-    for (std::size_t i = 0; i < pending.size(); ++i) pending[i] = i;
-    // The first pass keeps the numbers; later ones are only for meshes that need another order.
-    for (std::size_t before = pending.size() + 1; !pending.empty() && pending.size() < before;) {
-        before = pending.size();
-        std::vector<std::size_t> refused;
-        for (const std::size_t i : pending) {
+    Faces faces(arrays.triangles.size(), CgalMesh::null_face());
+    for (bool is_changed = true, is_complete = false; is_changed && !is_complete;) {
+        is_changed = false;
+        is_complete = true;
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            if (faces[i] != CgalMesh::null_face()) continue;
             const Triangle& t = arrays.triangles[i];
-            const auto face = mesh.add_face(CgalMesh::Vertex_index(t[0]), CgalMesh::Vertex_index(t[1]),
-                                            CgalMesh::Vertex_index(t[2]));
-            if (face == CgalMesh::null_face()) refused.push_back(i);
+            faces[i] = mesh.add_face(CgalMesh::Vertex_index(t[0]), CgalMesh::Vertex_index(t[1]),
+                                     CgalMesh::Vertex_index(t[2]));
+            if (faces[i] == CgalMesh::null_face())
+                is_complete = false;
+            else
+                is_changed = true;
         }
-        pending = std::move(refused);
     }
-    return pending;
+    return faces;
+}
+
+// The triangles without a face.
+inline std::vector<std::size_t> refused(const Faces& faces) {
+    std::vector<std::size_t> without;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        if (faces[i] == CgalMesh::null_face()) without.push_back(i);
+    return without;
 }
 
 }  // namespace judge

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t REMOVED_FACE = 228;
 
 // Files of CGAL's data: that of the test, and others with holes.
-constexpr const char* FILES[] = {"mech-holes-shark", "hole", "holes", "open_cube", "double-torus-3-holes"};
+constexpr const char* FILES[] = {"mech-holes-shark", "hole", "holes", "open_cube", "double-torus-3-holes", "elephant-with-holes"};
 
 Case elephant(const Arrays& whole, bool is_quad) {
     Case c;

@@ -15,7 +15,7 @@
 //! two triangles of a strongly twisted patch intersect; that edges just under the splitting threshold
 //! are the best choice for very small holes.
 
-use super::connectivity::{Connectivity, Halfedge, next};
+use super::connectivity::{Connectivity, Halfedge, next, prev};
 use super::density::SizeField;
 use super::flip::{Blocked, Flipper};
 use super::locality::renumber;
@@ -51,6 +51,10 @@ const SMALL_RIM: usize = 5;
 
 /// Diagonal over side in the regular pentagon, 1.618, and some room for irregular ones.
 const SMALL_RIM_FACTOR: f64 = 1.75;
+
+/// Squared length of a rim edge, over that at which it would be split if it were inside, above which the other sides
+/// of its triangle stay whole: with a right angle between them, they are too long themselves.
+const HOLDING: f64 = 2.0;
 
 /// Edges looked at or vertices moved between two questions whether to go on.
 const STEPS_PER_CHECK: usize = 1 << 13;
@@ -262,15 +266,37 @@ impl Refiner<'_> {
             self.options.split_factor.max(SMALL_RIM_FACTOR)
         };
         let limit = 0.5 * factor * (self.sizes.at(a) + self.sizes.at(b));
-        let length = (self.points[a as usize] - self.points[b as usize]).norm_squared();
-        length / (limit * limit)
+        self.squared_length(a, b) / (limit * limit)
+    }
+
+    #[inline]
+    fn squared_length(&self, a: u32, b: u32) -> f64 {
+        (self.points[a as usize] - self.points[b as usize]).norm_squared()
+    }
+
+    /// Whether a triangle at the edge of `h` has a rim edge at least as long that is [`HOLDING`].
+    ///
+    /// Rim edges stay, so one of the other two sides of such a triangle is too long wherever its apex is, unless
+    /// the triangle is nearly flat: splitting them would never end.
+    fn is_held(&self, h: Halfedge) -> bool {
+        let ends = |h: Halfedge| (self.mesh.origin(h), self.mesh.target(h));
+        let (a, b) = ends(h);
+        let length = self.squared_length(a, b);
+        let holds = |side: Halfedge| {
+            let (a, b) = ends(side);
+            self.mesh.opposite(side).is_none()
+                && self.squared_length(a, b) >= length
+                && self.squared_excess(a, b) > HOLDING
+        };
+        let sides = [Some(h), self.mesh.opposite(h)].into_iter().flatten();
+        sides.flat_map(|side| [next(side), prev(side)]).any(holds)
     }
 
     /// Lists the edge of `h` from `a` to `b` if it is too long.
     #[inline]
     fn collect_long(&self, h: Halfedge, a: u32, b: u32, long: &mut Vec<LongEdge>) {
         let excess = self.squared_excess(a, b);
-        if excess > 1.0 {
+        if excess > 1.0 && !self.is_held(h) {
             // The leading bits of a positive float are its octave and half of the octave.
             long.push((Reverse((excess.to_bits() >> 51) as u32), h));
         }
@@ -593,6 +619,29 @@ mod tests {
         let mut kept = surface.clone();
         refine(&mut kept, &mut vec![1.0; 120], &loose, &|_, _| false).unwrap();
         assert_eq!(kept.points.len(), 120);
+    }
+
+    #[test]
+    fn a_rim_edge_far_longer_than_the_target_does_not_draw_vertices_without_end() {
+        // One edge of length 3 below a row of edges of length 1.
+        let row = (0..=3).map(|i| Vec3::new(f64::from(3 - i), 1.2, 0.0));
+        let rim: Vec<Vec3> = [Vec3::zeros(), Vec3::x() * 3.0]
+            .into_iter()
+            .chain(row)
+            .collect();
+        let m = rim.len();
+        let surface = PatchSurface {
+            rim_count: m,
+            points: rim,
+            triangles: (1..m as u32 - 1).map(|i| [0, i, i + 1]).collect(),
+        };
+        let (mut out, mut sizes) = (surface.clone(), vec![1.0; m]);
+        refine(&mut out, &mut sizes, &RefineOptions::default(), &|_, _| {
+            false
+        })
+        .unwrap();
+        check_invariants(&surface, &out, &sizes);
+        assert!(out.triangles.len() < 20, "{}", out.triangles.len());
     }
 
     #[test]

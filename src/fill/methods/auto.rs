@@ -17,10 +17,11 @@ use crate::math::{Vec3, cross_normal, unit};
 use crate::patch::{HoleShape, PatchSurface};
 use crate::predict::surface::candidates::Candidate;
 use crate::predict::surface::choice::Score;
+use crate::predict::surface::flat_rim::RimPlane;
 use crate::predict::surface::jets::Band;
 use crate::predict::surface::samples::SampledBand;
 use crate::predict::surface::tip::{self, Tip};
-use crate::predict::surface::{Implicit, choice, march};
+use crate::predict::surface::{Implicit, choice, flat_rim, march};
 use crate::refine::rim_sizes;
 
 /// Rings of triangles round the hole that are read.
@@ -140,7 +141,15 @@ impl<'a> Auto<'a> {
             return Ok(patch);
         }
         staircase.check_interruption()?;
-        let surface = candidate.fit_to_rim(&mut samples);
+        let surface: Option<Box<dyn Implicit>> = match self.flat_face(method, smooth_score) {
+            Some(plane) => {
+                if let Some(prediction) = &mut self.prediction {
+                    prediction.chosen = Candidate::Plane;
+                }
+                Some(Box::new(plane))
+            }
+            None => candidate.fit_to_rim(&mut samples),
+        };
         staircase.check_interruption()?;
         let surface = surface.ok_or_else(|| geometry("no surface fits the surroundings"))?;
         let marcher = Marcher {
@@ -234,6 +243,18 @@ impl Auto<'_> {
         candidate.suits(is_noisy)
             && (options.primitives || candidate.interpolates())
             && (options.quintic || candidate != Candidate::Quintic)
+    }
+
+    /// The plane of the rim where the hole is a gap in a flat face and no surface predicts as well as exactly.
+    fn flat_face(&self, method: Method, smooth_score: Option<f64>) -> Option<RimPlane> {
+        let options = &self.options.auto;
+        let is_asked = method == Method::Auto && options.candidate.is_none() && options.primitives;
+        let is_open = smooth_score.is_some_and(|score| !choice::is_as_good_as_exact(score));
+        if is_asked && is_open {
+            flat_rim::plane_of_rim(self.hole)
+        } else {
+            None
+        }
     }
 
     fn choose(&self, method: Method, samples: &mut SampledBand) -> Result<Chosen> {

@@ -74,14 +74,14 @@ fn tips_of_cones_come_back() {
     let missing = |points: &[Vec3]| height - points.iter().map(|p| p.z).fold(0.0, f64::max);
     let rim_edge = (1.0 / 3.0) * TAU / 24.0;
     assert!(
-        missing(&points).abs() < 3.0 * rim_edge,
+        missing(points).abs() < 3.0 * rim_edge,
         "{}",
-        missing(&points)
+        missing(points)
     );
     let mut options = with_method(Method::Auto);
     options.auto.tips = false;
     let without = fill(&arrays, &all_but_the_largest(), &options);
-    let missed = missing(&without.new_points());
+    let missed = missing(without.new_points());
     assert!(missed > 5.0 * rim_edge, "{missed}");
     let off_cone = |p: &Vec3| (p.xy().norm() - (1.0 - p.z / height)).abs();
     let farthest = points.iter().map(off_cone).fold(0.0, f64::max);

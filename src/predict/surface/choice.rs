@@ -126,7 +126,12 @@ pub(crate) fn choose(scores: &[Score], is_noisy: bool) -> Option<Candidate> {
 
 /// Whether some candidate is as good as exact.
 pub(crate) fn is_exact(scores: &[Score]) -> bool {
-    scores.iter().any(|s| s.1 < AS_GOOD_AS_EXACT)
+    scores.iter().any(|s| is_as_good_as_exact(s.1))
+}
+
+/// Whether a score says that nothing is left to improve.
+pub(crate) fn is_as_good_as_exact(score: f64) -> bool {
+    score < AS_GOOD_AS_EXACT
 }
 
 /// The best scores so far, after each of the bands that are left out.

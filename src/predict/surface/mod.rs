@@ -5,6 +5,7 @@ pub(crate) mod candidates;
 pub(crate) mod choice;
 #[cfg(test)]
 mod fixtures;
+pub(crate) mod flat_rim;
 pub(crate) mod frame;
 pub(crate) mod hermite_rbf;
 pub(crate) mod jets;

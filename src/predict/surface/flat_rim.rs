@@ -1,0 +1,117 @@
+//! Whether a hole is a gap in a flat face.
+//!
+//! Where nearly all of the rim runs through one plane, with its triangles in that plane too, what is missing is a
+//! piece of it, however the face ends further out: a few coarse triangles of a flat foot, say, which leave-out bands
+//! on its rounded sides cannot foretell.
+//!
+//! Weighted medians find a plane that has more than half of the weight. Complexity: O(m log m) for `m` rim edges.
+
+use super::Implicit;
+use crate::math::{Vec3, unit};
+use crate::patch::HoleShape;
+
+/// Share of the rim's length that lies in the plane, at least.
+const SHARE: f64 = 0.8;
+/// Least cosine between the normal of a triangle in the plane and that of the plane: one degree.
+const ALIKE: f64 = 0.99985;
+/// Distance of a rim vertex in the plane from it, in mean rim edges, at most.
+const NEAR: f64 = 0.005;
+
+/// A plane with a unit normal.
+pub(crate) struct RimPlane {
+    normal: Vec3,
+    offset: f64,
+}
+
+impl Implicit for RimPlane {
+    fn value_and_gradient(&self, p: &Vec3) -> (f64, Vec3) {
+        (self.normal.dot(p) - self.offset, self.normal)
+    }
+}
+
+/// The plane that the rim and its triangles lie in, but for a small part.
+pub(crate) fn plane_of_rim(hole: &HoleShape) -> Option<RimPlane> {
+    let corners: Vec<Vec3> = hole.polygon.iter().map(|&v| hole.point(v)).collect();
+    let next = |i: usize| corners[(i + 1) % corners.len()];
+    // Length, ends and normal of each edge with a triangle.
+    let edges: Vec<(f64, [Vec3; 2], Vec3)> = hole
+        .outside_normals
+        .iter()
+        .zip(corners.iter().enumerate())
+        .filter_map(|(normal, (i, &p))| Some(((next(i) - p).norm(), [p, next(i)], (*normal)?)))
+        .collect();
+    let median = |value: &dyn Fn(&[Vec3; 2], &Vec3) -> f64| {
+        let weighted = edges.iter().map(|(l, ends, n)| (value(ends, n), *l));
+        weighted_median(weighted.collect())
+    };
+    let normal = Vec3::new(
+        median(&|_, n| n.x)?,
+        median(&|_, n| n.y)?,
+        median(&|_, n| n.z)?,
+    );
+    let normal = unit(normal);
+    let offset = median(&|[a, b], _| 0.5 * (a + b).dot(&normal))?;
+    let whole: f64 = edges.iter().map(|e| e.0).sum();
+    let flat: f64 = edges
+        .iter()
+        .filter(|(_, ends, n)| {
+            n.dot(&normal) > ALIKE && ends.iter().all(|p| (p.dot(&normal) - offset).abs() < NEAR)
+        })
+        .map(|e| e.0)
+        .sum();
+    (flat >= SHARE * whole && whole > 0.0).then_some(RimPlane { normal, offset })
+}
+
+/// The value that half of the weight is not above; the pairs are value and weight.
+fn weighted_median(mut pairs: Vec<(f64, f64)>) -> Option<f64> {
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let half = 0.5 * pairs.iter().map(|p| p.1).sum::<f64>();
+    let mut sum = 0.0;
+    pairs.into_iter().find_map(|(value, weight)| {
+        sum += weight;
+        (sum >= half).then_some(value)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A round rim in the plane z = 0 whose triangles lean by `lean(i)` radians, and whose vertices rise by `rise(i)`.
+    fn hole(lean: impl Fn(usize) -> f64, rise: impl Fn(usize) -> f64) -> HoleShape {
+        let m = 20;
+        let angle = |i: usize| i as f64 * std::f64::consts::TAU / m as f64;
+        let turn = nalgebra::Rotation3::from_euler_angles(0.4, -0.9, 1.3);
+        let point =
+            |i: usize| turn * Vec3::new(3.2 * angle(i).cos(), 3.2 * angle(i).sin(), rise(i));
+        let normal = |i: usize| {
+            let out = Vec3::new(angle(i).cos(), angle(i).sin(), 0.0);
+            Some(turn * (out * lean(i).sin() + Vec3::z() * lean(i).cos()))
+        };
+        HoleShape {
+            points: (0..m).map(point).collect(),
+            polygon: (0..m as u32).collect(),
+            outside_normals: (0..m).map(normal).collect(),
+            ..HoleShape::default()
+        }
+    }
+
+    #[test]
+    fn a_flat_rim_is_found_though_a_few_triangles_lean() {
+        let lean = |i| if i < 3 { 0.8 } else { 0.0 };
+        let plane = plane_of_rim(&hole(lean, |i| if i == 1 { 0.3 } else { 0.0 })).unwrap();
+        let flat = hole(lean, |_| 0.0);
+        for p in &flat.points {
+            assert!(plane.value_and_gradient(p).0.abs() < 1e-12);
+        }
+        assert!(plane_of_rim(&hole(|i| if i < 5 { 0.8 } else { 0.0 }, |_| 0.0)).is_none());
+    }
+
+    #[test]
+    fn the_rims_of_caps_tubes_and_bent_sheets_are_not_flat() {
+        assert!(plane_of_rim(&hole(|_| 0.05, |_| 0.0)).is_none());
+        assert!(plane_of_rim(&hole(|_| std::f64::consts::FRAC_PI_2, |_| 0.0)).is_none());
+        assert!(plane_of_rim(&hole(|_| 0.0, |i| 0.02 * (i % 3) as f64)).is_none());
+        assert!(plane_of_rim(&HoleShape::default()).is_none());
+    }
+}

@@ -6,7 +6,7 @@ use super::*;
 fn slow(threads: u32) -> HolefillFillOptions {
     HolefillFillOptions {
         threads,
-        density: 0.4,
+        density: 0.15,
         ..with_method(c"fair-c2")
     }
 }

@@ -73,11 +73,15 @@ pub(crate) fn fair(
         _ => Operator::new(&domain, order).normal_equations(&domain.points, interrupted)?,
     };
     let solution = solver.solve(matrix, &right_side)?;
-    // Giving back the memory of a large system takes milliseconds.
-    drop(domain);
-    proceed_unless(interrupted)?;
+    give_back(domain, interrupted)?;
     surface.points[surface.rim_count..].copy_from_slice(&solution);
     Ok(())
+}
+
+/// Gives back the memory of a domain, which takes milliseconds when it is large, and asks whether to stop.
+fn give_back(domain: Domain, interrupted: &dyn Fn() -> bool) -> Result<()> {
+    drop(domain);
+    proceed_unless(interrupted)
 }
 
 /// Extends values given at the rim to the interior vertices, three at a time, by the harmonic function of
@@ -95,9 +99,7 @@ pub(crate) fn extend_from_rim(
     let domain = Domain::new(surface, &around, 0, Weights::Uniform, interrupted)?;
     let (matrix, right_side) = membrane_equations(&domain, rim_values, interrupted)?;
     let solution = solver.solve(matrix, &right_side)?;
-    // Giving back the memory of a large system takes milliseconds.
-    drop(domain);
-    proceed_unless(interrupted)?;
+    give_back(domain, interrupted)?;
     Ok(solution)
 }
 

@@ -52,8 +52,9 @@ const SMALL_RIM: usize = 5;
 /// Diagonal over side in the regular pentagon, 1.618, and some room for irregular ones.
 const SMALL_RIM_FACTOR: f64 = 1.75;
 
-/// Squared length of a rim edge, over that at which it would be split if it were inside, above which the other sides
-/// of its triangle stay whole: with a right angle between them, they are too long themselves.
+/// Squared length of a rim edge, over that at which it would be split if it were inside, above which the shorter sides
+/// of its triangle stay whole. At 2 and with a right angle opposite the edge, the longer of them is about as long as
+/// an edge may be: splitting shortens neither for good.
 const HOLDING: f64 = 2.0;
 
 /// Edges looked at or vertices moved between two questions whether to go on.
@@ -104,7 +105,8 @@ pub(crate) struct RefineReport {
     pub(crate) last_move: f64,
 }
 
-/// Refines `surface` until no interior edge is longer than its target length allows.
+/// Refines `surface` until no interior edge is longer than its target length allows, but for those beside a rim edge
+/// that is at least as long and above [`HOLDING`].
 ///
 /// `sizes` holds the target edge length of each rim vertex or of each vertex, and of each vertex
 /// afterwards. `blocked(a, b)` says that the mesh round the patch has an edge between the rim
@@ -276,8 +278,8 @@ impl Refiner<'_> {
 
     /// Whether a triangle at the edge of `h` has a rim edge at least as long that is [`HOLDING`].
     ///
-    /// Rim edges stay, so one of the other two sides of such a triangle is too long wherever its apex is, unless
-    /// the triangle is nearly flat: splitting them would never end.
+    /// Rim edges stay, so unless the angle opposite is obtuse the longer of the other two sides is about too long
+    /// wherever the apex is: splits there make no headway.
     fn is_held(&self, h: Halfedge) -> bool {
         let ends = |h: Halfedge| (self.mesh.origin(h), self.mesh.target(h));
         let (a, b) = ends(h);

@@ -94,7 +94,7 @@ const SLOWEST_RETURN: Duration = Duration::from_millis(500);
 /// Stops at several moments, by every method. Prints the time from the request to the return, and the longest time
 /// between two questions.
 #[test]
-#[ignore = "takes minutes without optimisation"]
+#[ignore = "takes minutes and measures times"]
 fn a_stop_on_a_hole_of_twenty_thousand_edges_is_answered_soon() {
     let mesh = mesh_of(&wide());
     // SAFETY: no pointer but null.

@@ -324,8 +324,9 @@ impl Marcher<'_> {
             sizes.iter_mut().for_each(|s| *s /= finer);
         }
         let (_, diameter) = self.hole.middle_and_diameter();
-        if let Some(tip) = &self.tip {
-            self.raise(&mut patch, tip, diameter);
+        if let Some(tip) = &self.tip
+            && self.raise(&mut patch, tip, diameter)?
+        {
             staircase.refine_again(&mut patch, &mut sizes)?;
         }
         let limit = LONGEST_STEP * diameter;
@@ -351,25 +352,29 @@ impl Marcher<'_> {
 
     /// Raises a patch over a tip that is higher than half a sphere to a cone whose apex lies on the surface: from a flat
     /// patch steps along the gradients of a steep surface lead sideways.
-    fn raise(&self, patch: &mut PatchSurface, tip: &Tip, diameter: f64) {
-        let farthest = REACH[1] * diameter;
-        let Some(height) = march::way_out(self.surface, &tip.center, &tip.onwards, farthest) else {
-            return;
+    /// Returns whether it did.
+    fn raise(&self, patch: &mut PatchSurface, tip: &Tip, diameter: f64) -> Result<bool> {
+        let reach = REACH[1] * diameter;
+        let height = march::way_out(self.surface, &tip.center, &tip.onwards, reach);
+        let Some(height) = height.filter(|height| *height > diameter / 2.0) else {
+            return Ok(false);
         };
-        if height < diameter / 2.0 {
-            return;
-        }
         let (rim, interior) = patch.points.split_at_mut(patch.rim_count);
         let to_rim = |p: &Vec3| {
             let distances = rim.iter().map(|q| (p - q).norm());
             distances.fold(f64::INFINITY, f64::min)
         };
-        let distances: Vec<f64> = interior.iter().map(to_rim).collect();
+        let mut distances = Vec::with_capacity(interior.len());
+        for points in interior.chunks(POINTS_PER_CHECK) {
+            proceed_unless(self.interrupted)?;
+            distances.extend(points.iter().map(to_rim));
+        }
         let farthest = distances.iter().copied().fold(0.0, f64::max);
         for (p, distance) in interior.iter_mut().zip(&distances) {
             let present = (*p - tip.center).dot(&tip.onwards);
             *p += f64::max(distance / farthest * height - present, 0.0) * tip.onwards;
         }
+        Ok(true)
     }
 
     /// Moves points onto the surface; returns the longest way.
@@ -455,7 +460,6 @@ impl Marcher<'_> {
         if !patch.points.iter().flatten().all(|x| x.is_finite()) {
             return Err(geometry("the predicted patch is not finite"));
         }
-        proceed_unless(self.interrupted)?;
         let folded = folded_share(patch, self.interrupted)?;
         let count = patch.triangles.len().max(1) as f64;
         if folded >= FOLDED_SHARE.max(FOLDED_COUNT / count) {

@@ -57,6 +57,27 @@ fn windows_in_saddles_come_back() {
     assert!(farthest < 1e-3, "{farthest}");
 }
 
+#[test]
+fn gaps_in_flat_faces_are_flat_though_the_face_bends_further_out() {
+    let off_center = |x: f64, y: f64| (x - 12.0).hypot(y - 12.0);
+    let height = |x: f64, y: f64| -0.08 * (off_center(x, y) - 6.0).max(0.0).powi(2);
+    let arrays = fixtures::sheet(24, height).cut(|c| off_center(c[0], c[1]) < 4.0);
+    let of = |primitives: bool| {
+        let mut options = with_method(Method::Auto);
+        options.auto.primitives = primitives;
+        let filled = fill(&arrays, &all_but_the_largest(), &options);
+        let hole = filled.report.holes.iter().find(|h| h.method.is_some());
+        let chosen = hole.unwrap().prediction.as_ref().unwrap().chosen;
+        let points = filled.new_points();
+        let highest = points.iter().map(|p| p.z.abs()).fold(0.0, f64::max);
+        (chosen, highest)
+    };
+    let (chosen, highest) = of(true);
+    assert!(chosen == Candidate::Plane && highest < 1e-9, "{highest}");
+    let (chosen, highest) = of(false);
+    assert!(chosen != Candidate::Plane && highest > 1e-6, "{highest}");
+}
+
 /// A faired patch lies flat in the hole, and the shortest way from it to the cone leads to its flanks.
 #[test]
 fn tips_of_cones_come_back() {

@@ -20,6 +20,9 @@ const PLANE_NOISE: f64 = 2.0;
 
 /// Vertices that a surface needs.
 const FEWEST_VERTICES: usize = 4;
+/// Most vertices that the surface of such a region is fitted to: the cost of an interpolating function grows with the
+/// cube of their number.
+const MOST_VERTICES: usize = 140;
 
 /// The surface of a region.
 pub(crate) struct RegionSurface {
@@ -91,13 +94,17 @@ pub(crate) fn fit_regions(
                 score: choice::score_of(&scores, candidate),
             });
         }
-        fit_small(&mut samples)
+        proceed_unless(interrupted)?;
+        let small = fit_small(&mut samples);
+        // What a fit says that was broken off means nothing.
+        proceed_unless(interrupted)?;
+        small
     };
     regions.faces.iter().map(fit).collect()
 }
 
 fn fit_small(samples: &mut SampledBand) -> Result<RegionSurface> {
-    let vertices = samples.spread(0..FITTED_RINGS + 1, usize::MAX);
+    let vertices = samples.spread(0..FITTED_RINGS + 1, MOST_VERTICES);
     if vertices.len() < FEWEST_VERTICES {
         let reason = "the region beside a crease is too small";
         return Err(Error::new(ErrorKind::Geometry, reason.to_owned()));

@@ -8,10 +8,12 @@ use super::primitives::{cone::Cone, cylinder::Cylinder, torus::Torus};
 use super::samples::SampledBand;
 use super::{Implicit, Sample};
 
-/// Most samples of a fit that is scored, and of one that is used: of an interpolating function, whose cost grows with
-/// the cube and whose accuracy little; of a surface that is found by iteration; of an algebraic one.
+/// Most samples of an interpolating function that is scored, and of one that is used: the cost grows with the cube, the
+/// accuracy little.
 const MOST_CENTERS: [usize; 2] = [80, 140];
+/// The same for surfaces that are found by iteration, whose every step reads all samples.
 const MOST_ITERATED_SAMPLES: [usize; 2] = [60, 100];
+/// The same for algebraic surfaces, which are decomposed once.
 const MOST_LINEAR_SAMPLES: [usize; 2] = [150, 300];
 /// Rings of samples of an interpolating function of the whole surroundings: two determine position, tangent plane
 /// and curvature at the rim, and further ones only cost.

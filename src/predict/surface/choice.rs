@@ -42,8 +42,9 @@ const SMOOTH: f64 = 0.01;
 /// On rims with more edges than this it must beat it by more, in proportion: functions that grow faster are trusted
 /// less far. The middle of such a hole is eight times as many rings away as the widest band that is left out.
 const WIDE_RIM: f64 = 150.0;
-/// A candidate that after some of the bands is further off than this factor times the best of those that were
-/// compared with all, by the same bands, is not compared with the others.
+/// A candidate whose mean over the first bands is more than this factor times the best mean over the same bands is not
+/// compared with the rest. Of 2,226 holes in 59 models none would have chosen another candidate for that; with 2 one,
+/// with 1.5 nine.
 const OUT_OF_REACH: f64 = 3.0;
 /// A costly candidate is fitted only when the one that contains or approximates it scores within this factor of the
 /// best so far.
@@ -76,7 +77,7 @@ pub(crate) fn scores(
         let best = scores.iter().map(|s| s.1).fold(f64::INFINITY, f64::min);
         let is_settled = scores
             .iter()
-            .any(|s| s.1 < AS_GOOD_AS_EXACT && s.0.freedom() < candidate.freedom());
+            .any(|s| is_as_good_as_exact(s.1) && s.0.freedom() < candidate.freedom());
         if is_settled {
             continue;
         }
@@ -110,7 +111,7 @@ pub(crate) fn score_of(scores: &[Score], candidate: Candidate) -> Option<f64> {
 /// The candidate to use: the simplest of those that are as good as exact, else the best.
 pub(crate) fn choose(scores: &[Score], is_noisy: bool) -> Option<Candidate> {
     let best = scores.iter().map(|s| s.1).min_by(f64::total_cmp)?;
-    let limit = if best < AS_GOOD_AS_EXACT {
+    let limit = if is_as_good_as_exact(best) {
         AS_GOOD_AS_EXACT
     } else if is_noisy {
         NOISY_TOLERANCE * best
@@ -141,8 +142,9 @@ struct Race {
 }
 
 impl Race {
-    /// The geometric mean over the left out bands of the distances to the surface; infinite when nothing could be
-    /// fitted.
+    /// The geometric mean over the left out bands of the distances to the surface, times the factor of interpolating
+    /// functions; for a candidate that falls too far behind, the best one's times the factor by which it is behind.
+    /// Infinite when nothing could be fitted or the caller asked to stop.
     fn run(&mut self, samples: &mut SampledBand, candidate: Candidate, widest: u32) -> f64 {
         let factor = if candidate.interpolates() {
             INTERPOLATION_FACTOR
@@ -167,7 +169,8 @@ impl Race {
             if let (Some(&best), Some(last)) = (self.best.get(means.len()), self.best.last())
                 && mean > AS_GOOD_AS_EXACT.max(OUT_OF_REACH * best)
             {
-                return mean / best * last;
+                // What was not compared with all bands is not as good as exact.
+                return mean / best * last.max(AS_GOOD_AS_EXACT);
             }
             means.push(mean);
         }
@@ -195,4 +198,76 @@ fn left_out_distance(samples: &mut SampledBand, r: u32, surface: &dyn Implicit) 
         count += 1.0;
     }
     (squares / f64::max(count, 1.0)).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::jets::Band;
+    use super::*;
+    use crate::math::Vec3;
+    use crate::patch::{HoleShape, Surroundings};
+    use std::f64::consts::TAU;
+
+    /// Rings round the hole of a paraboloid.
+    fn paraboloid() -> HoleShape {
+        let around = 24;
+        let point = |ring: u32, k: u32| {
+            let (radius, angle) = (
+                4.0 + f64::from(ring),
+                TAU * f64::from(k) / f64::from(around),
+            );
+            Vec3::new(
+                radius * angle.cos(),
+                radius * angle.sin(),
+                0.05 * radius * radius,
+            )
+        };
+        let ring = |r: u32| (0..around).map(move |k| point(r, k));
+        let vertex = |r: u32, k: u32| r * around + k % around;
+        let quads = (0..RINGS).flat_map(|r| (0..around).map(move |k| (r, k)));
+        let triangles = quads.flat_map(|(r, k)| {
+            let quad = [
+                vertex(r, k),
+                vertex(r + 1, k),
+                vertex(r + 1, k + 1),
+                vertex(r, k + 1),
+            ];
+            [[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]]
+        });
+        HoleShape {
+            points: ring(0).collect(),
+            polygon: (0..around).collect(),
+            surroundings: Surroundings {
+                points: (1..=RINGS).flat_map(ring).collect(),
+                levels: (1..=RINGS).flat_map(|r| vec![r; around as usize]).collect(),
+                triangles: triangles.collect(),
+            },
+            ..HoleShape::default()
+        }
+    }
+
+    #[test]
+    fn what_falls_behind_is_not_as_good_as_exact() {
+        let mut samples = SampledBand::new(Band::new(&paraboloid()), 1.0, true);
+        let whole = Race::default().run(&mut samples, Candidate::Plane, MOST_LEFT_OUT);
+        assert!(whole > 0.1, "{whole}");
+        let best = vec![whole / 10.0, 1e-3, 1e-5];
+        let mut race = Race { best: best.clone() };
+        let behind = race.run(&mut samples, Candidate::Plane, MOST_LEFT_OUT);
+        assert!(
+            behind > OUT_OF_REACH * AS_GOOD_AS_EXACT && behind < whole,
+            "{behind}"
+        );
+        assert_eq!(race.best, best);
+    }
+
+    #[test]
+    fn nothing_with_more_freedom_than_an_exact_surface_is_tried() {
+        let mut samples = SampledBand::new(Band::new(&paraboloid()), 1.0, true);
+        let scores = scores(&mut samples, &Candidate::ALL, 24);
+        assert!(is_exact(&scores), "{scores:?}");
+        assert_eq!(score_of(&scores, Candidate::Cubic), None);
+        let chosen = choose(&scores, false).and_then(|chosen| score_of(&scores, chosen));
+        assert!(chosen.is_some_and(is_as_good_as_exact), "{scores:?}");
+    }
 }

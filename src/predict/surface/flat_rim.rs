@@ -10,7 +10,7 @@ use super::Implicit;
 use crate::math::{Vec3, unit};
 use crate::patch::HoleShape;
 
-/// Share of the rim's length that lies in the plane, at least.
+/// Share of the length of the rim edges that have a triangle with a normal that lies in the plane, at least.
 const SHARE: f64 = 0.8;
 /// Least cosine between the normal of a triangle in the plane and that of the plane: one degree.
 const ALIKE: f64 = 0.99985;

@@ -259,8 +259,8 @@ fn least_squares(rows: &[[f64; 3]], decay: f64, constant: f64) -> Option<Coeffic
         return None;
     }
     if constant == 0.0 {
-        // Keeps the constant term at zero and the condition of the matrix.
-        matrix[(0, 0)] = matrix.trace() / 5.0;
+        // The mean of the other eigenvalues keeps the constant term at zero and the condition of the matrix.
+        matrix[(0, 0)] = matrix.trace() / (right_side.len() - 1) as f64;
     }
     well_conditioned_solution(matrix, &right_side)
         .or_else(|| Some(truncated_solution(matrix, &right_side)))

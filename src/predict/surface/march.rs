@@ -11,8 +11,10 @@ const CONVERGED_SHARE: f64 = 1e-5;
 /// Gradients of the functions are about one at the surface; below this they have no direction.
 const SMALLEST_GRADIENT: f64 = 1e-6;
 
-/// Places that are looked at for the way out of a surface, and halvings of what is between two of them.
+/// Places that are looked at for the way out of a surface: over six diameters of a rim, one in 0.03 diameters. Thinner
+/// layers are missed.
 const WAY_STEPS: u32 = 200;
+/// Halvings of the way between two of them, to a millionth of it.
 const BISECTIONS: usize = 20;
 
 /// The point after at most `steps` Newton steps of at most the length `limit`.

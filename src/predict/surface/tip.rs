@@ -13,14 +13,15 @@ use nalgebra::{Matrix3, SymmetricEigen};
 
 /// Mean angle between the normals of the triangles at the rim and that of the rim's plane, at least.
 const STEEP: f64 = 60.0 * std::f64::consts::PI / 180.0;
-/// Spread of the rim across its plane over that along it, at most.
+/// Spread of the rim across its plane over that along it, at most; coarse rims are ragged, and beyond this have no plane.
 const FLAT: f64 = 0.5;
 /// Edges of the rim, fewer than this: the end of something wide is no tip.
 const SMALL: usize = 80;
 /// Mean component of the normals towards the hole, at least: 0 is a tube of constant width, which has no tip to grow.
 const CONVERGING: f64 = 0.08;
 
-/// A surface that closes is used when its score is within this factor of the best of those that may be used.
+/// A surface that closes is used when its score is within this factor of the best of all but [`TOO_FREE`]: the rings
+/// left out lie on the flank and say less about the tip than that it closes.
 const TOLERANCE: f64 = 1.5;
 /// The tip is further from the rim than any ring that was left out: surfaces with so much freedom bend on the way.
 const TOO_FREE: [Candidate; 2] = [Candidate::Cyclide, Candidate::Torus];
@@ -43,7 +44,7 @@ pub(crate) fn closing_candidate(scores: &[Score]) -> Option<Candidate> {
     }
 }
 
-/// Where the missing tip of a horn begins and where to it points.
+/// Where the missing tip of a horn begins, and which way it points.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tip {
     /// The centroid of the rim.

@@ -30,8 +30,8 @@ const TRIAL_STEPS: usize = 6;
 /// Steps spent on the chosen ones; a good start needs five to ten.
 const STEPS: usize = 40;
 
-/// Starts that are followed to the end, at most, and the second only when its sum of squares is between these parts
-/// of the first's: nearer ones have reached the same minimum, farther ones will not overtake it.
+/// Starts that are followed to the end, at most; the second only when its sum of squares is between these parts of the
+/// first's. Nearer ones have as a rule reached the same minimum, and farther ones rarely overtake it; not guaranteed.
 const FINALISTS: usize = 2;
 const OTHER_MINIMUM: Range<f64> = 1.01..4.0;
 

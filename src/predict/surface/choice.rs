@@ -208,8 +208,8 @@ mod tests {
     use crate::patch::{HoleShape, Surroundings};
     use std::f64::consts::TAU;
 
-    /// Rings round the hole of a paraboloid.
-    fn paraboloid() -> HoleShape {
+    /// Rings round the hole of a paraboloid of this steepness.
+    fn rings(steepness: f64) -> HoleShape {
         let around = 24;
         let point = |ring: u32, k: u32| {
             let (radius, angle) = (
@@ -219,7 +219,7 @@ mod tests {
             Vec3::new(
                 radius * angle.cos(),
                 radius * angle.sin(),
-                0.05 * radius * radius,
+                steepness * radius * radius,
             )
         };
         let ring = |r: u32| (0..around).map(move |k| point(r, k));
@@ -248,7 +248,7 @@ mod tests {
 
     #[test]
     fn what_falls_behind_is_not_as_good_as_exact() {
-        let mut samples = SampledBand::new(Band::new(&paraboloid()), 1.0, true);
+        let mut samples = SampledBand::new(Band::new(&rings(0.05)), 1.0, true);
         let whole = Race::default().run(&mut samples, Candidate::Plane, MOST_LEFT_OUT);
         assert!(whole > 0.1, "{whole}");
         let best = vec![whole / 10.0, 1e-3, 1e-5];
@@ -263,11 +263,10 @@ mod tests {
 
     #[test]
     fn nothing_with_more_freedom_than_an_exact_surface_is_tried() {
-        let mut samples = SampledBand::new(Band::new(&paraboloid()), 1.0, true);
+        let mut samples = SampledBand::new(Band::new(&rings(0.0)), 1.0, true);
         let scores = scores(&mut samples, &Candidate::ALL, 24);
         assert!(is_exact(&scores), "{scores:?}");
         assert_eq!(score_of(&scores, Candidate::Cubic), None);
-        let chosen = choose(&scores, false).and_then(|chosen| score_of(&scores, chosen));
-        assert!(chosen.is_some_and(is_as_good_as_exact), "{scores:?}");
+        assert_eq!(choose(&scores, false), Some(Candidate::Plane));
     }
 }

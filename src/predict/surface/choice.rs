@@ -47,7 +47,7 @@ const WIDE_RIM: f64 = 150.0;
 /// with 1.5 nine.
 const OUT_OF_REACH: f64 = 3.0;
 /// A costly candidate is fitted only when the one that contains or approximates it scores within this factor of the
-/// best so far.
+/// best so far, or of what is as good as exact.
 const GATE_FACTOR: f64 = 2.0;
 
 /// A candidate with its score in rim edge lengths; smaller is better.
@@ -82,7 +82,7 @@ pub(crate) fn scores(
             continue;
         }
         let gate = candidate.gate().and_then(|gate| score_of(&scores, gate));
-        if gate.is_some_and(|score| score > AS_GOOD_AS_EXACT.max(GATE_FACTOR * best)) {
+        if gate.is_some_and(|score| score > GATE_FACTOR * best.max(AS_GOOD_AS_EXACT)) {
             continue;
         }
         let mut score = race.run(samples, candidate, widest);

@@ -20,7 +20,9 @@ mkdir -p "$1" "$3"
 folder=$(cd "$1" && pwd)
 system="$folder/gui/sid"
 library="$system/usr/lib/x86_64-linux-gnu/meshlab/libmeshlab-common.so"
-plugins="$system/root/.local/share/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins/2025.07"
+# The home of who works MeshLab, inside that system.
+desk="$system/srv"
+plugins="$desk/.local/share/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins/2025.07"
 
 "$here/fetch.sh" "$folder"
 
@@ -42,17 +44,17 @@ cmake --build "$folder/gui/build" --parallel "$(nproc)"
 mkdir -p "$plugins"
 cp "$folder/gui/build/meshlab_plugin/2025.07/libfilter_holefill.so" "$plugins/"
 
-cp "$2" "$system/root/bunny.ply"
-rm -rf "$system/root/pictures" "$system/tmp/.X77-lock"
-mkdir "$system/root/pictures"
-cat >"$system/root/work.sh" <<'WORK'
-export DISPLAY=:77 LIBGL_ALWAYS_SOFTWARE=1 HOME=/root LC_ALL=C.UTF-8
+cp "$2" "$desk/bunny.ply"
+rm -rf "$desk/pictures" "$system/tmp/.X77-lock"
+mkdir "$desk/pictures"
+cat >"$desk/work.sh" <<'WORK'
+export DISPLAY=:77 LIBGL_ALWAYS_SOFTWARE=1 LC_ALL=C.UTF-8
 Xvfb :77 -screen 0 1280x900x24 >/dev/null 2>&1 &
 screen=$!
 sleep 2
 openbox >/dev/null 2>&1 &
 sleep 1
-meshlab /root/bunny.ply &
+meshlab bunny.ply &
 meshlab=$!
 trap 'kill $meshlab $screen' EXIT
 for second in $(seq 60); do
@@ -61,7 +63,7 @@ for second in $(seq 60); do
 done
 sleep 10
 
-picture() { import -window root -crop "$2" +repage "/root/$1.png"; }
+picture() { import -window root -crop "$2" +repage "$1.png"; }
 at() { xdotool mousemove "$1" "$2"; sleep 1; }
 click() { at "$1" "$2"; xdotool click 1; sleep 2; }
 # From left to right over the mesh: turns it by about 60 degrees.
@@ -95,13 +97,12 @@ at 640 840
 picture after "$bunny"
 picture log 420x122+852+707
 
-cd /root
 convert before.png after.png +append pictures/meshlab-before-after.png
 for name in menu dialog log; do
     convert $name.png -colors 128 pictures/meshlab-$name.png
 done
 WORK
 mount -t proc proc "$system/proc" 2>/dev/null && trap 'umount "$system/proc"' EXIT
-chroot "$system" bash /root/work.sh
-cp "$system"/root/pictures/*.png "$3/"
+chroot "$system" env HOME=/srv bash -c 'cd && exec bash work.sh'
+cp "$desk"/pictures/*.png "$3/"
 ls -l "$3"

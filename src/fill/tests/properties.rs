@@ -121,11 +121,17 @@ fn check_every_method(arrays: &Arrays) {
     }
 }
 
-/// Case counts of the long run, which is made by hand: `cargo test --lib -- --ignored many_`.
-const LONG: u32 = 20_000;
+/// So many meshes of each kind, or as many as `PROPTEST_CASES` says: `PROPTEST_CASES=20000 cargo test --lib do_no_harm`.
+fn cases(usual: u32) -> ProptestConfig {
+    let asked_for = std::env::var("PROPTEST_CASES").ok();
+    ProptestConfig {
+        failure_persistence: None,
+        ..ProptestConfig::with_cases(asked_for.and_then(|n| n.parse().ok()).unwrap_or(usual))
+    }
+}
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(60) })]
+    #![proptest_config(cases(60))]
 
     #[test]
     fn star_shaped_holes_are_filled_whatever_the_options((arrays, selection) in damaged(), options in options()) {
@@ -170,7 +176,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(500) })]
+    #![proptest_config(cases(500))]
 
     #[test]
     fn a_soup_of_triangles_does_no_harm(arrays in soup()) {
@@ -179,26 +185,10 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(60) })]
+    #![proptest_config(cases(60))]
 
     #[test]
     fn a_battered_sphere_does_no_harm(arrays in battered()) {
-        check_every_method(&arrays);
-    }
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(LONG) })]
-
-    #[test]
-    #[ignore = "a longer run of a property that every test run checks on fewer meshes"]
-    fn many_soups_of_triangles_do_no_harm(arrays in soup()) {
-        check_every_method(&arrays);
-    }
-
-    #[test]
-    #[ignore = "a longer run of a property that every test run checks on fewer meshes"]
-    fn many_battered_spheres_do_no_harm(arrays in battered()) {
         check_every_method(&arrays);
     }
 }

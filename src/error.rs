@@ -80,6 +80,18 @@ pub(crate) fn proceed_unless(interrupted: &dyn Fn() -> bool) -> Result<()> {
     Ok(())
 }
 
+/// The same at each step that is a multiple of `every`: asking costs more than most steps.
+pub(crate) fn proceed_every(
+    every: usize,
+    step: usize,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<()> {
+    if step.is_multiple_of(every) {
+        proceed_unless(interrupted)?;
+    }
+    Ok(())
+}
+
 /// Whether work on several threads has to stop: asks the caller, and tells all threads of a yes.
 pub(crate) struct StopSign<'a> {
     interrupted: &'a (dyn Fn() -> bool + Sync),

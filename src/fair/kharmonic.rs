@@ -19,7 +19,7 @@
 //! Not guaranteed: that the result has no self-intersection, nor that it stays near the rim.
 
 use super::laplacian::{Domain, Weights};
-use crate::error::{Result, proceed_unless};
+use crate::error::{Result, proceed_every, proceed_unless};
 use crate::math::Vec3;
 use crate::math::sparse::{SpdSolver, SymmetricMatrix};
 use crate::patch::{PatchSurface, Surroundings};
@@ -221,9 +221,7 @@ impl<'a> Operator<'a> {
         let mut right_side = Vec::with_capacity(interior);
         let mut column: Vec<(u32, f64)> = Vec::new();
         for v in domain.rim_count..domain.patch_count {
-            if v.is_multiple_of(COLUMNS_PER_CHECK) {
-                proceed_unless(interrupted)?;
-            }
+            proceed_every(COLUMNS_PER_CHECK, v, interrupted)?;
             self.weighted_column(v, &mut scratch);
             scratch.c.clear();
             let mut sum = Vec3::zeros();
@@ -283,9 +281,7 @@ fn membrane_equations(
     };
     let mut right_side = Vec::with_capacity(domain.patch_count - domain.rim_count);
     for v in domain.rim_count..domain.patch_count {
-        if v.is_multiple_of(COLUMNS_PER_CHECK) {
-            proceed_unless(interrupted)?;
-        }
+        proceed_every(COLUMNS_PER_CHECK, v, interrupted)?;
         let diagonal_at = matrix.values.len();
         matrix.rows.push((v - domain.rim_count) as u32);
         matrix.values.push(0.0);

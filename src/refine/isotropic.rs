@@ -20,7 +20,7 @@ use super::density::SizeField;
 use super::flip::{Blocked, Flipper};
 use super::locality::renumber;
 use super::relax::relax;
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result, proceed_every, proceed_unless};
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
 use std::cmp::Reverse;
@@ -400,9 +400,7 @@ impl Refiner<'_> {
 
     /// Asks whether to go on at every so many steps of a long loop.
     fn check_every(&self, step: usize) -> Result<()> {
-        if step.is_multiple_of(STEPS_PER_CHECK) {
-            proceed_unless(self.options.interrupted)?;
-        }
+        proceed_every(STEPS_PER_CHECK, step, self.options.interrupted)?;
         Ok(())
     }
 

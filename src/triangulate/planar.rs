@@ -9,7 +9,7 @@
 //! Not guaranteed: the same triangles in another numbering where four vertices lie on a circle.
 
 use super::simple_polygon::{Point2, find_contact, is_counter_clockwise};
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result, proceed_every, proceed_unless};
 use spade::handles::{FixedFaceHandle, FixedVertexHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, Triangulation, mitigate_underflow};
 
@@ -71,9 +71,7 @@ pub(crate) fn triangulate_planar_region(
     let mut delaunay = Delaunay::new();
     let mut vertices = Vec::with_capacity(m + k);
     for (i, &p) in points.iter().enumerate() {
-        if i.is_multiple_of(INSERTIONS_PER_CHECK) {
-            proceed_unless(interrupted)?;
-        }
+        proceed_every(INSERTIONS_PER_CHECK, i, interrupted)?;
         let vertex = delaunay.insert(p);
         vertices.push(vertex.map_err(|e| invalid(format!("a point cannot be used: {e}")))?);
     }
@@ -87,9 +85,7 @@ pub(crate) fn triangulate_planar_region(
         .map(|(a, b)| (vertices[a], vertices[b]))
         .collect();
     for (i, &(a, b)) in edges.iter().enumerate() {
-        if i.is_multiple_of(INSERTIONS_PER_CHECK) {
-            proceed_unless(interrupted)?;
-        }
+        proceed_every(INSERTIONS_PER_CHECK, i, interrupted)?;
         if delaunay.try_add_constraint(a, b).is_empty() && polygons.len() > 1 {
             return Err(geometry("two polygons meet in the plane".to_owned()));
         }

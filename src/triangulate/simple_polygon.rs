@@ -6,7 +6,7 @@
 //! The signs are those of exact arithmetic unless a product of two coordinate differences leaves the range of
 //! double precision; callers keep coordinates in it.
 
-use crate::error::{Result, proceed_unless};
+use crate::error::{Result, proceed_every};
 use robust::{Coord, orient2d};
 
 /// Edges that are compared with the others between two questions whether to stop: about a millisecond's work, in a
@@ -44,9 +44,7 @@ pub(crate) fn find_contact(
     let mut order: Vec<usize> = (0..m).collect();
     order.sort_by(|&i, &j| range(i, 0).0.total_cmp(&range(j, 0).0).then(i.cmp(&j)));
     for (place, &i) in order.iter().enumerate() {
-        if place.is_multiple_of(EDGES_PER_CHECK) {
-            proceed_unless(interrupted)?;
-        }
+        proceed_every(EDGES_PER_CHECK, place, interrupted)?;
         if ends(i)[0] == ends(i)[1] {
             return Ok(Some((i, i)));
         }

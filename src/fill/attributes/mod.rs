@@ -15,7 +15,7 @@ mod rbf;
 use super::hole::{Band, Hole, HoleReach};
 use super::method::Method;
 use super::options::{FillOptions, Interpolator};
-use crate::error::{ErrorKind, Result, proceed_unless};
+use crate::error::{ErrorKind, Result, proceed_every};
 use crate::fair::kharmonic::{extend_from_rim, extend_with_slope};
 use crate::math::sparse::SpdSolver;
 use crate::math::{Vec3, cross_normal, unit};
@@ -330,9 +330,7 @@ impl AttributeTask<'_> {
 
     /// Asks at every [`INTERRUPTION_INTERVAL`]th `step`.
     fn check_interruption(&self, step: usize) -> Result<()> {
-        if step.is_multiple_of(INTERRUPTION_INTERVAL) {
-            proceed_unless(self.interrupted)?;
-        }
+        proceed_every(INTERRUPTION_INTERVAL, step, self.interrupted)?;
         Ok(())
     }
 }

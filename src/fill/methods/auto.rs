@@ -7,7 +7,7 @@
 use super::creases::Creases;
 use super::hpde;
 use super::staircase::Staircase;
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result, proceed_every, proceed_unless};
 use crate::fair::kharmonic::extend_from_rim;
 use crate::fill::method::Method;
 use crate::fill::options::FillOptions;
@@ -525,9 +525,7 @@ fn area(patch: &PatchSurface) -> f64 {
 fn folded_share(patch: &PatchSurface, interrupted: &dyn Fn() -> bool) -> Result<f64> {
     let mut at_vertices = vec![Vec3::zeros(); patch.points.len()];
     for (i, t) in patch.triangles.iter().enumerate() {
-        if i.is_multiple_of(TRIANGLES_PER_CHECK) {
-            proceed_unless(interrupted)?;
-        }
+        proceed_every(TRIANGLES_PER_CHECK, i, interrupted)?;
         let n = normal(patch, t);
         for k in 0..3 {
             let p = [0, 1, 2].map(|i| patch.points[t[(k + i) % 3] as usize]);

@@ -4,7 +4,7 @@
 //! curve unfolding", SMI 2009, sections 3.2 and 3.3. Unlike there, refinement works on the embedded patch and
 //! again on its final shape, and both energies are minimised exactly, by one sparse system each.
 
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result, proceed_every};
 use crate::fair::kharmonic::{Order, fair};
 use crate::fair::laplacian::Weights;
 use crate::fill::method::Method;
@@ -123,9 +123,7 @@ impl<'a> Unfold<'a> {
     fn split_joined_chords(&self, surface: &mut PatchSurface) -> Result<()> {
         let mut t = 0;
         while t < surface.triangles.len() {
-            if t.is_multiple_of(TRIANGLES_PER_CHECK) {
-                proceed_unless(self.interrupted)?;
-            }
+            proceed_every(TRIANGLES_PER_CHECK, t, self.interrupted)?;
             for k in 0..3 {
                 let [a, b, c] = rotated(surface.triangles[t], k);
                 if (a.max(b) as usize) >= surface.rim_count || !self.hole.is_joined(a, b) {

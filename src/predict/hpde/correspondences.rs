@@ -4,7 +4,7 @@
 //! Computer-Aided Design 45, 2013, section 4.3, equations 9 and 10. `O(n²)`.
 
 use super::base_points::{BasePoint, rim_direction};
-use crate::error::{Result, proceed_unless};
+use crate::error::{Result, proceed_every};
 use crate::math::{Vec3, unit};
 
 /// A pair of base points that face each other, as indices of the rotated sequence: `first < second`.
@@ -35,9 +35,7 @@ pub(super) fn best_start(base: &[BasePoint], interrupted: &dyn Fn() -> bool) -> 
     };
     let mut best = (0, f64::INFINITY);
     for start in 0..n / 2 {
-        if start.is_multiple_of(STARTS_PER_CHECK) {
-            proceed_unless(interrupted)?;
-        }
+        proceed_every(STARTS_PER_CHECK, start, interrupted)?;
         let distance = sum(start);
         if distance < best.1 {
             best = (start, distance);

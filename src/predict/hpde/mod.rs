@@ -29,7 +29,7 @@ pub(crate) use outside::{Known, Outside};
 pub(crate) use sections::{Predicted, Prepared};
 
 use super::surface::jets::Band;
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result, proceed_every, proceed_unless};
 use crate::math::Vec3;
 use crate::patch::{HoleShape, PatchSurface};
 use crate::triangulate::planar::triangulate_planar_region;
@@ -168,9 +168,7 @@ fn read_rim(
             let band = Band::new(&seen);
             let mut normals = Vec::with_capacity(seen.points.len());
             for v in 0..seen.points.len() {
-                if v.is_multiple_of(NORMALS_PER_CHECK) {
-                    proceed_unless(interrupted)?;
-                }
+                proceed_every(NORMALS_PER_CHECK, v, interrupted)?;
                 normals.push(band.interpolating_normal(v as u32));
             }
             Some(normals)

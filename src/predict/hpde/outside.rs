@@ -6,7 +6,7 @@
 use super::NORMALS_PER_CHECK;
 use super::base_points::BasePoint;
 use super::sections::Prepared;
-use crate::error::{Result, proceed_unless};
+use crate::error::{Result, proceed_every, proceed_unless};
 use crate::math::{Vec3, unit};
 use crate::patch::HoleShape;
 use crate::predict::surface::jets::Band;
@@ -50,9 +50,7 @@ impl<'a> Outside<'a> {
         let mut normals = band.triangle_normals.clone();
         // Those of triangles would lean to one side at the rim.
         for (v, normal) in normals[..hole.points.len()].iter_mut().enumerate() {
-            if v.is_multiple_of(NORMALS_PER_CHECK) {
-                proceed_unless(interrupted)?;
-            }
+            proceed_every(NORMALS_PER_CHECK, v, interrupted)?;
             *normal = band.interpolating_normal(v as u32);
         }
         Ok(Self {

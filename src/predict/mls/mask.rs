@@ -1,6 +1,6 @@
 //! Where a hole is sampled: the points of a square grid that lie in the mask's opening.
 
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result, proceed_every};
 use crate::triangulate::simple_polygon::Point2;
 
 /// Least distance of a sample from the mask, in steps.
@@ -34,9 +34,7 @@ pub(crate) fn resampling_positions(
     let mut near: Vec<(i64, i64)> = Vec::new();
     for of_loop in loops {
         for (i, &a) in of_loop.iter().enumerate() {
-            if i.is_multiple_of(EDGES_PER_CHECK) {
-                proceed_unless(interrupted)?;
-            }
+            proceed_every(EDGES_PER_CHECK, i, interrupted)?;
             let b = of_loop[(i + 1) % of_loop.len()];
             let edge = [a, b].map(|p| p.map(|x| x / step));
             if !edge.iter().flatten().all(|x| x.abs() < MOST_LINES) {
@@ -55,9 +53,7 @@ pub(crate) fn resampling_positions(
     near.dedup();
     let mut samples = Vec::new();
     for (line, pair) in crossings.chunks_exact(2).enumerate() {
-        if line.is_multiple_of(LINES_PER_CHECK) {
-            proceed_unless(interrupted)?;
-        }
+        proceed_every(LINES_PER_CHECK, line, interrupted)?;
         let [(row, from), (_, to)] = [pair[0], pair[1]];
         let first = from.ceil() as i64;
         let last = to.floor() as i64;

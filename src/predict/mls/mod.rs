@@ -12,7 +12,7 @@ mod fit;
 mod mask;
 mod vicinity;
 
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result, proceed_every, proceed_unless};
 use crate::math::{Vec3, cross_normal};
 use crate::patch::{HoleShape, PatchSurface, Surroundings};
 use crate::triangulate::planar::triangulate_planar_region;
@@ -268,9 +268,7 @@ impl<'a> HeightField<'a> {
         let mut result = vec![Vec::with_capacity(places.len()); channels.len()];
         let mut values = vec![0.0; channels.len()];
         for (i, &place) in places.iter().enumerate() {
-            if i.is_multiple_of(places_per_check) {
-                proceed_unless(interrupted)?;
-            }
+            proceed_every(places_per_check, i, interrupted)?;
             if !evaluator.evaluate(place, &mut values) {
                 let message = "the weighted least squares have no solution at a sample";
                 return Err(Error::new(ErrorKind::Solver, message));

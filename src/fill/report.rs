@@ -52,8 +52,11 @@ pub struct Prediction {
     pub scores: Vec<(Candidate, f64)>,
     /// Standard deviation of the surroundings' vertices from smooth surfaces, in rim edge lengths.
     pub noise: f64,
-    /// Whether the hole was taken for the missing tip of a horn.
+    /// Whether the hole was taken for the missing tip of a horn, higher than half a sphere.
     pub is_tip: bool,
+    /// Whether the hole was taken for a gap in a flat face: then the patch lies in the plane of the rim, whatever the
+    /// scores say.
+    pub is_flat: bool,
     /// Number of creases in the patch; when there are any, `chosen` was not used.
     pub crease_count: usize,
     /// The surfaces between the creases, in the order in which the rim meets them.

@@ -83,6 +83,7 @@ fn prediction(prediction: &Prediction) -> Value {
         "scores": scores,
         "noise": prediction.noise,
         "is_tip": prediction.is_tip,
+        "is_flat": prediction.is_flat,
         "creases": prediction.crease_count,
         "crease_surfaces": crease_surfaces,
         "without_creases": prediction.without_creases,

@@ -20,7 +20,7 @@ use crate::predict::surface::choice::Score;
 use crate::predict::surface::flat_rim::RimPlane;
 use crate::predict::surface::jets::Band;
 use crate::predict::surface::samples::SampledBand;
-use crate::predict::surface::tip::{self, Tip};
+use crate::predict::surface::tip::{self, Stump, Tip};
 use crate::predict::surface::{Implicit, choice, flat_rim, march};
 use crate::refine::rim_sizes;
 
@@ -124,13 +124,14 @@ impl<'a> Auto<'a> {
             .stopped_by(self.interrupted);
         staircase.check_interruption()?;
         let is_noisy = samples.is_noisy();
-        let (candidate, scores, tip) = self.choose(method, &mut samples)?;
+        let (candidate, scores, stump) = self.choose(method, &mut samples)?;
         let smooth_score = choice::score_of(&scores, candidate);
         self.prediction = Some(Prediction {
             chosen: candidate,
             scores,
             noise: samples.noise,
-            is_tip: tip.is_some(),
+            is_tip: false,
+            is_flat: false,
             crease_count: 0,
             crease_surfaces: Vec::new(),
             without_creases: None,
@@ -141,17 +142,23 @@ impl<'a> Auto<'a> {
             return Ok(patch);
         }
         staircase.check_interruption()?;
-        let surface: Option<Box<dyn Implicit>> = match self.flat_face(method, smooth_score) {
-            Some(plane) => {
-                if let Some(prediction) = &mut self.prediction {
-                    prediction.chosen = Candidate::Plane;
-                }
-                Some(Box::new(plane))
-            }
+        let plane = self.flat_face(method, smooth_score);
+        let is_flat = plane.is_some();
+        let surface: Option<Box<dyn Implicit>> = match plane {
+            Some(plane) => Some(Box::new(plane)),
             None => candidate.fit_to_rim(&mut samples),
         };
         staircase.check_interruption()?;
         let surface = surface.ok_or_else(|| geometry("no surface fits the surroundings"))?;
+        let (_, diameter) = self.hole.middle_and_diameter();
+        let tip = stump.and_then(|s| s.tip_on(surface.as_ref(), diameter, REACH[1] * diameter));
+        if let Some(prediction) = &mut self.prediction {
+            prediction.is_tip = tip.is_some();
+            prediction.is_flat = is_flat;
+            if is_flat {
+                prediction.chosen = Candidate::Plane;
+            }
+        }
         let marcher = Marcher {
             hole: self.hole,
             surface: surface.as_ref(),
@@ -197,8 +204,8 @@ impl<'a> Auto<'a> {
     }
 }
 
-/// Candidate, scores, and the tip if the hole is one.
-type Chosen = (Candidate, Vec<Score>, Option<Tip>);
+/// Candidate, scores, and the stump of a horn if the hole may be its tip.
+type Chosen = (Candidate, Vec<Score>, Option<Stump>);
 
 impl Auto<'_> {
     /// The patch that continues creases across the hole, if there are any and they are good enough; what speaks
@@ -261,7 +268,7 @@ impl Auto<'_> {
         let options = &self.options.auto;
         let is_noisy = samples.is_noisy();
         if let Some(candidate) = options.candidate {
-            return Ok((candidate, Vec::new(), self.tip(samples)));
+            return Ok((candidate, Vec::new(), self.stump(samples)));
         }
         if method == Method::Curvature {
             return Ok((UNCHOSEN[usize::from(is_noisy)], Vec::new(), None));
@@ -273,19 +280,19 @@ impl Auto<'_> {
         let scores = choice::scores(samples, &candidates, self.hole.polygon.len());
         // Scores of work that was broken off say nothing.
         proceed_unless(self.interrupted)?;
-        let tip = self.tip(samples);
-        let closing = tip
+        let stump = self.stump(samples);
+        let closing = stump
             .filter(|_| !choice::is_exact(&scores))
             .and_then(|_| tip::closing_candidate(&scores));
         let chosen = closing
             .or_else(|| choice::choose(&scores, is_noisy))
             .ok_or_else(|| geometry("the surroundings are too small to predict from"))?;
-        Ok((chosen, scores, tip))
+        Ok((chosen, scores, stump))
     }
 
-    fn tip(&self, samples: &SampledBand) -> Option<Tip> {
+    fn stump(&self, samples: &SampledBand) -> Option<Stump> {
         let is_asked_for = self.options.auto.tips;
-        is_asked_for.then(|| tip::find(self.hole, &samples.band))?
+        is_asked_for.then(|| tip::find_stump(self.hole, &samples.band))?
     }
 }
 
@@ -324,9 +331,8 @@ impl Marcher<'_> {
             sizes.iter_mut().for_each(|s| *s /= finer);
         }
         let (_, diameter) = self.hole.middle_and_diameter();
-        if let Some(tip) = &self.tip
-            && self.raise(&mut patch, tip, diameter)?
-        {
+        if let Some(tip) = &self.tip {
+            self.raise(&mut patch, tip)?;
             staircase.refine_again(&mut patch, &mut sizes)?;
         }
         let limit = LONGEST_STEP * diameter;
@@ -350,15 +356,9 @@ impl Marcher<'_> {
         Ok(patch)
     }
 
-    /// Raises a patch over a tip that is higher than half a sphere to a cone whose apex lies on the surface: from a flat
-    /// patch steps along the gradients of a steep surface lead sideways.
-    /// Returns whether it did.
-    fn raise(&self, patch: &mut PatchSurface, tip: &Tip, diameter: f64) -> Result<bool> {
-        let reach = REACH[1] * diameter;
-        let height = march::way_out(self.surface, &tip.center, &tip.onwards, reach);
-        let Some(height) = height.filter(|height| *height > diameter / 2.0) else {
-            return Ok(false);
-        };
+    /// Raises a patch over a tip to a cone with the same apex: from a flat patch steps along the gradients of a steep
+    /// surface lead sideways.
+    fn raise(&self, patch: &mut PatchSurface, tip: &Tip) -> Result<()> {
         let (rim, interior) = patch.points.split_at_mut(patch.rim_count);
         let to_rim = |p: &Vec3| {
             let distances = rim.iter().map(|q| (p - q).norm());
@@ -371,10 +371,9 @@ impl Marcher<'_> {
         }
         let farthest = distances.iter().copied().fold(0.0, f64::max);
         for (p, distance) in interior.iter_mut().zip(&distances) {
-            let present = (*p - tip.center).dot(&tip.onwards);
-            *p += f64::max(distance / farthest * height - present, 0.0) * tip.onwards;
+            *p = tip.raised(p, distance / farthest);
         }
-        Ok(true)
+        Ok(())
     }
 
     /// Moves points onto the surface; returns the longest way.

@@ -67,15 +67,27 @@ fn gaps_in_flat_faces_are_flat_though_the_face_bends_further_out() {
         options.auto.primitives = primitives;
         let filled = fill(&arrays, &all_but_the_largest(), &options);
         let hole = filled.report.holes.iter().find(|h| h.method.is_some());
-        let chosen = hole.unwrap().prediction.as_ref().unwrap().chosen;
+        let prediction = hole.unwrap().prediction.as_ref().unwrap();
+        assert_eq!(prediction.is_flat, primitives);
         let points = filled.new_points();
         let highest = points.iter().map(|p| p.z.abs()).fold(0.0, f64::max);
-        (chosen, highest)
+        (prediction.chosen, highest)
     };
     let (chosen, highest) = of(true);
     assert!(chosen == Candidate::Plane && highest < 1e-9, "{highest}");
     let (chosen, highest) = of(false);
     assert!(chosen != Candidate::Plane && highest > 1e-6, "{highest}");
+}
+
+#[test]
+fn caps_are_no_tips() {
+    let arrays = fixtures::sphere(16).cut(|c| c[2] > 0.3);
+    let filled = fill(&arrays, &Selection::default(), &with_method(Method::Auto));
+    let prediction = filled.report.holes[0].prediction.as_ref().unwrap();
+    assert_eq!(
+        (prediction.chosen, prediction.is_tip),
+        (Candidate::Sphere, false)
+    );
 }
 
 /// A faired patch lies flat in the hole, and the shortest way from it to the cone leads to its flanks.

@@ -4,9 +4,11 @@
 //! of something long. Interpolating functions round such ends off too early; a quadric, fitted to a converging tube,
 //! is an ellipsoid or a paraboloid and closes like one.
 
+use super::Implicit;
 use super::candidates::Candidate;
 use super::choice::{Score, score_of};
 use super::jets::Band;
+use super::march::way_out;
 use crate::math::Vec3;
 use crate::patch::HoleShape;
 use nalgebra::{Matrix3, SymmetricEigen};
@@ -44,17 +46,47 @@ pub(crate) fn closing_candidate(scores: &[Score]) -> Option<Candidate> {
     }
 }
 
-/// Where the missing tip of a horn begins, and which way it points.
+/// What is left of a horn whose tip may be missing.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stump {
+    /// The centroid of the rim.
+    center: Vec3,
+    /// Unit vector across the rim's plane, away from the surroundings.
+    onwards: Vec3,
+}
+
+/// A missing tip on the surface that closes it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tip {
-    /// The centroid of the rim.
-    pub(crate) center: Vec3,
-    /// Unit vector across the rim's plane, away from the surroundings.
-    pub(crate) onwards: Vec3,
+    stump: Stump,
+    /// From the centroid of the rim to the apex.
+    height: f64,
+}
+
+/// Height of a tip in diameters of the rim, at least: lower than half a sphere it is a cap, which needs no help.
+const LEAST_HEIGHT: f64 = 0.5;
+
+impl Stump {
+    /// The tip that the surface puts on the stump, if it has one up to `reach` above a rim of the diameter.
+    pub(crate) fn tip_on(&self, surface: &dyn Implicit, diameter: f64, reach: f64) -> Option<Tip> {
+        let height = way_out(surface, &self.center, &self.onwards, reach)?;
+        (height > LEAST_HEIGHT * diameter).then_some(Tip {
+            stump: *self,
+            height,
+        })
+    }
+}
+
+impl Tip {
+    /// Where a point goes that is to be at this share of the way up to the apex; higher ones stay.
+    pub(crate) fn raised(&self, p: &Vec3, share: f64) -> Vec3 {
+        let present = (p - self.stump.center).dot(&self.stump.onwards);
+        p + f64::max(share * self.height - present, 0.0) * self.stump.onwards
+    }
 }
 
 /// Judges by the rim, its normals and the direction in which the surroundings end.
-pub(crate) fn find(hole: &HoleShape, band: &Band) -> Option<Tip> {
+pub(crate) fn find_stump(hole: &HoleShape, band: &Band) -> Option<Stump> {
     let rim = &hole.points;
     let normals: Vec<Vec3> = hole.outside_normals.iter().flatten().copied().collect();
     if rim.len() >= SMALL || normals.is_empty() {
@@ -92,8 +124,8 @@ pub(crate) fn find(hole: &HoleShape, band: &Band) -> Option<Tip> {
         / count;
     let onwards = axis * (center - behind).dot(&axis).signum();
     let lean = normals.iter().map(|n| n.dot(&onwards)).sum::<f64>() / count;
-    let is_tip = angle > STEEP
+    let is_stump = angle > STEEP
         && eigen.eigenvalues[across] < FLAT * FLAT * eigen.eigenvalues.max()
         && lean > CONVERGING;
-    is_tip.then_some(Tip { center, onwards })
+    is_stump.then_some(Stump { center, onwards })
 }

@@ -20,8 +20,8 @@ const PLANE_NOISE: f64 = 2.0;
 
 /// Vertices that a surface needs.
 const FEWEST_VERTICES: usize = 4;
-/// Most vertices that the surface of such a region is fitted to: the cost of an interpolating function grows with the
-/// cube of their number.
+/// Most vertices that the surface of a region too small for a choice is fitted to: the cost of an interpolating
+/// function grows with the cube of their number.
 const MOST_VERTICES: usize = 140;
 
 /// The surface of a region.

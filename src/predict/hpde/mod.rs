@@ -29,7 +29,7 @@ pub(crate) use outside::{Known, Outside};
 pub(crate) use sections::{Predicted, Prepared};
 
 use super::surface::jets::Band;
-use crate::error::{Error, ErrorKind, Result, proceed_every, proceed_unless};
+use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::math::Vec3;
 use crate::patch::{HoleShape, PatchSurface};
 use crate::triangulate::planar::triangulate_planar_region;
@@ -55,9 +55,6 @@ const MOST_OUTSIDE: f64 = 0.2;
 
 /// Points at which the patch folds are left out, and what is left is triangulated anew, this many times at most.
 const MOST_ROUNDS: usize = 12;
-
-/// Normals that are fitted between two questions whether to stop.
-const NORMALS_PER_CHECK: usize = 256;
 
 /// The patch for `hole`, with at most `most_points` new vertices.
 ///
@@ -166,12 +163,7 @@ fn read_rim(
         HpdeTangents::Jet => {
             proceed_unless(interrupted)?;
             let band = Band::new(&seen);
-            let mut normals = Vec::with_capacity(seen.points.len());
-            for v in 0..seen.points.len() {
-                proceed_every(NORMALS_PER_CHECK, v, interrupted)?;
-                normals.push(band.interpolating_normal(v as u32));
-            }
-            Some(normals)
+            Some(band.interpolating_normals(seen.points.len(), interrupted)?)
         }
     };
     let in_order = |values: &[Vec3]| -> Vec<Vec3> {

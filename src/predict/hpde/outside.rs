@@ -3,10 +3,9 @@
 //! A section plane is followed through the known triangles, from edge to edge. `O(steps)` per section, once the
 //! edges are sorted.
 
-use super::NORMALS_PER_CHECK;
 use super::base_points::BasePoint;
 use super::sections::Prepared;
-use crate::error::{Result, proceed_every, proceed_unless};
+use crate::error::{Result, proceed_unless};
 use crate::math::{Vec3, unit};
 use crate::patch::HoleShape;
 use crate::predict::surface::jets::Band;
@@ -49,10 +48,8 @@ impl<'a> Outside<'a> {
         let band = Band::new(hole);
         let mut normals = band.triangle_normals.clone();
         // Those of triangles would lean to one side at the rim.
-        for (v, normal) in normals[..hole.points.len()].iter_mut().enumerate() {
-            proceed_every(NORMALS_PER_CHECK, v, interrupted)?;
-            *normal = band.interpolating_normal(v as u32);
-        }
+        let at_rim = band.interpolating_normals(hole.points.len(), interrupted)?;
+        normals[..at_rim.len()].copy_from_slice(&at_rim);
         Ok(Self {
             hole,
             points: band.points,

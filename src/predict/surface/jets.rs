@@ -11,6 +11,7 @@
 //! A fit costs `O(k)` for `k` neighbours, some twenty, and a 5x5 or 6x6 eigenvalue problem. Not guaranteed: that
 //! the fitted normal is better than that of the triangles where the surface has a crease.
 
+use crate::error::{Result, proceed_every};
 use crate::math::{Vec3, unit};
 use crate::patch::HoleShape;
 use nalgebra::{SMatrix, SVector, SymmetricEigen};
@@ -31,6 +32,8 @@ const SINGULAR_SHARE: f64 = 1e-3;
 /// is local, a smoothing one needs all its neighbours.
 const INTERPOLATING_DECAY: f64 = 1.0;
 const SMOOTHING_DECAY: f64 = 0.3;
+/// Normals that are fitted between two questions whether to stop.
+const NORMALS_PER_CHECK: usize = 256;
 /// Vertices at which noise is estimated, at most: their median does not need all.
 const NOISE_PROBES: usize = 50;
 /// What a quadric misses of a smooth surface grows with the cube of the distance: over three rings it deviates by
@@ -121,6 +124,23 @@ impl Band {
             return fallback;
         };
         unit(frame.normal - c[1] * frame.u - c[2] * frame.v)
+    }
+
+    /// The same at the first `count` vertices: those of the rim come first.
+    ///
+    /// # Errors
+    /// `Cancelled` when `interrupted` returns true.
+    pub(crate) fn interpolating_normals(
+        &self,
+        count: usize,
+        interrupted: &dyn Fn() -> bool,
+    ) -> Result<Vec<Vec3>> {
+        let mut normals = Vec::with_capacity(count);
+        for v in 0..count {
+            proceed_every(NORMALS_PER_CHECK, v, interrupted)?;
+            normals.push(self.interpolating_normal(v as u32));
+        }
+        Ok(normals)
     }
 
     /// The quadric that fits a vertex and its neighbours within `rings`, without passing through any of them;

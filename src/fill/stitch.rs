@@ -95,9 +95,12 @@ impl<'a> Stitcher<'a> {
             Ok(plan) => plan,
             Err(failure) => return Outcome::failed(failure.error, failure.tried),
         };
+        let vertices = self.mesh.positions().len();
+        let mut triangles = plan.triangles(vertices);
         let mut with_patches = 0;
-        let conflict = self.conflict(&plan).or_else(|| {
-            with_patches = self.intersections_with_patches(&plan) + self.intersections_since(&plan);
+        let conflict = self.conflict(&plan, &triangles).or_else(|| {
+            with_patches = self.intersections_with_patches(&plan, &triangles)
+                + self.intersections_since(&plan, &triangles);
             (with_patches > 0).then(|| {
                 let message =
                     format!("its patch intersects that of another hole {with_patches} times");
@@ -119,6 +122,7 @@ impl<'a> Stitcher<'a> {
                 {
                     with_patches = count;
                     self.replanned.push((index, plan_box(self.mesh, &other)));
+                    triangles = other.triangles(vertices);
                     plan = other;
                 }
                 Some(Err(failure)) if !is_usable => {
@@ -143,13 +147,12 @@ impl<'a> Stitcher<'a> {
             }
         }
         plan.self_intersections += with_patches;
-        self.append(index, plan)
+        self.append(index, plan, &triangles)
     }
 
     /// Why the patch no longer fits the mesh.
-    fn conflict(&self, plan: &Plan) -> Option<Error> {
-        let triangles = plan.triangles(self.mesh.positions().len());
-        check_against_mesh(self.mesh, &plan.hole, &triangles).err()
+    fn conflict(&self, plan: &Plan, triangles: &[[u32; 3]]) -> Option<Error> {
+        check_against_mesh(self.mesh, &plan.hole, triangles).err()
     }
 
     /// The methods that are worth trying after a plan that does not fit for the reason `error`.
@@ -193,20 +196,21 @@ impl<'a> Stitcher<'a> {
         })?;
         tried.append(&mut other.tried);
         other.tried = tried;
-        match self.conflict(&other) {
+        let triangles = other.triangles(self.mesh.positions().len());
+        match self.conflict(&other, &triangles) {
             Some(error) => Err(Failure {
                 error,
                 tried: other.tried,
             }),
             None => {
-                let count = self.intersections_with_patches(&other);
+                let count = self.intersections_with_patches(&other, &triangles);
                 Ok((other, count))
             }
         }
     }
 
     /// Pairs of triangles of the patch and of the patches stitched so far that intersect.
-    fn intersections_with_patches(&self, plan: &Plan) -> usize {
+    fn intersections_with_patches(&self, plan: &Plan, triangles: &[[u32; 3]]) -> usize {
         let own_box = plan_box(self.mesh, plan);
         let mut near = Vec::new();
         self.boxes.overlapping(&own_box, &mut near);
@@ -218,10 +222,9 @@ impl<'a> Stitcher<'a> {
                 .filter(|(_, reach)| reach.overlaps(&own_box))
                 .map(|&(hole, _)| hole as u32),
         );
-        let triangles = plan.triangles(self.mesh.positions().len());
         let patch = AppendedPatch {
             points: &plan.points,
-            triangles: &triangles,
+            triangles,
         };
         near.iter()
             .map(|&i| self.stitched[i as usize].clone())
@@ -234,26 +237,24 @@ impl<'a> Stitcher<'a> {
     }
 
     /// Pairs of triangles of the patch and of what was appended after it was planned that intersect.
-    fn intersections_since(&self, plan: &Plan) -> usize {
+    fn intersections_since(&self, plan: &Plan, triangles: &[[u32; 3]]) -> usize {
         let Some((range, tree)) = &self.since else {
             return 0;
         };
-        let triangles = plan.triangles(self.mesh.positions().len());
         let patch = AppendedPatch {
             points: &plan.points,
-            triangles: &triangles,
+            triangles,
         };
         count(part(self.mesh, range.clone()), tree, patch).with_mesh
     }
 
-    fn append(&mut self, index: usize, plan: Plan) -> Outcome {
+    fn append(&mut self, index: usize, plan: Plan, triangles: &[[u32; 3]]) -> Outcome {
         let vertices = self.mesh.positions().len();
         let faces = self.mesh.triangles().len();
-        let triangles = plan.triangles(vertices);
         let points: Vec<[f64; 3]> = plan.points.iter().map(|&p| p.into()).collect();
         let appended = self
             .mesh
-            .append(&points, &triangles, |of_vertices, of_faces| {
+            .append(&points, triangles, |of_vertices, of_faces| {
                 plan.attributes.append_to(of_vertices, of_faces)
             });
         if let Err(error) = appended {

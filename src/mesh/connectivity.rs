@@ -201,9 +201,11 @@ impl Connectivity {
             .collect();
         rim_vertices.sort_unstable();
         rim_vertices.dedup();
+        // New vertices, which are most, come behind those of the rim.
+        let last = rim_vertices.last().copied().unwrap_or(0);
         for halfedge in halfedges {
             let (start, target) = ends(halfedge);
-            if rim_vertices.binary_search(&start).is_ok() {
+            if start <= last && rim_vertices.binary_search(&start).is_ok() {
                 let outgoing = Outgoing { target, halfedge };
                 self.appended.entry(start).or_default().push(outgoing);
             }

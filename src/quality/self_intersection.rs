@@ -20,7 +20,6 @@ use crate::math::Vec3;
 use crate::math::aabb::Aabb;
 use crate::math::box_tree::BoxTree;
 use rayon::prelude::*;
-use std::ops::Range;
 
 /// Patch triangles searched as one piece of parallel work; up to this many are swept, which beats building
 /// a tree.
@@ -156,11 +155,9 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// The planes of the triangles in `piece`.
-    fn separators(&self, piece: Range<usize>) -> Vec<Separator> {
-        piece
-            .map(|i| Separator::new(self.triangles[i], self.corners[i]))
-            .collect()
+    /// The planes of triangle `i`, kept in `known`.
+    fn separator<'s>(&self, i: usize, known: &'s mut [Option<Separator>]) -> &'s Separator {
+        known[i].get_or_insert_with(|| Separator::new(self.triangles[i], self.corners[i]))
     }
 
     /// Adds patch triangles `i`, with its separator, and `j` to `pairs` if they intersect improperly.
@@ -189,7 +186,8 @@ impl Task<'_> {
         let mut order: Vec<(f64, usize)> = self.boxes.iter().map(|b| b.lo[axis]).zip(0..).collect();
         order.sort_unstable_by(|(a, i), (b, j)| a.total_cmp(b).then(i.cmp(j)));
         let swept: Vec<(Aabb, usize)> = order.iter().map(|&(_, i)| (self.boxes[i], i)).collect();
-        let separators = self.separators(0..self.boxes.len());
+        // Of a patch that is sound by itself few triangles come near the mesh.
+        let mut separators = vec![None; self.boxes.len()];
         let mut pairs = Vec::new();
         let unproved = if is_sound { &[] } else { &swept[..] };
         for (k, (a, i)) in unproved.iter().enumerate() {
@@ -198,7 +196,8 @@ impl Task<'_> {
                     break;
                 }
                 if a.overlaps(b) {
-                    self.try_patch(*i, &separators[*i], *j, &mut pairs);
+                    let separator = self.separator(*i, &mut separators);
+                    self.try_patch(*i, separator, *j, &mut pairs);
                 }
             }
         }
@@ -218,12 +217,14 @@ impl Task<'_> {
                 let chunks = swept.chunks(CHUNK).zip(&reaches);
                 for (chunk, _) in chunks.filter(|(_, reach)| a.overlaps(reach)) {
                     for (_, i) in chunk.iter().filter(|(b, _)| a.overlaps(b)) {
-                        self.try_mesh(*i, &separators[*i], face, &mut pairs);
+                        let separator = self.separator(*i, &mut separators);
+                        self.try_mesh(*i, separator, face, &mut pairs);
                     }
                 }
             }
         } else {
-            for (i, separator) in separators.iter().enumerate() {
+            for i in 0..self.boxes.len() {
+                let separator = self.separator(i, &mut separators);
                 self.search_mesh(i, separator, &mut near, &mut pairs);
             }
         }
@@ -263,10 +264,10 @@ impl Task<'_> {
         let pieces = 0..self.boxes.len().div_ceil(PIECE);
         let search = |p: usize| {
             let piece = p * PIECE..((p + 1) * PIECE).min(self.boxes.len());
-            let separators = self.separators(piece.clone());
             let mut pairs = Vec::new();
             let mut found = Vec::new();
-            for (i, separator) in piece.zip(&separators) {
+            for i in piece {
+                let separator = &Separator::new(self.triangles[i], self.corners[i]);
                 // Beside long thin triangles each one may take milliseconds.
                 if stop.is_set_at(i, 1) {
                     break;

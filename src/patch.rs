@@ -94,6 +94,7 @@ impl HoleShape {
 
     /// Whether an edge of the mesh already joins two rim vertices.
     pub(crate) fn is_joined(&self, a: u32, b: u32) -> bool {
-        self.joined.binary_search(&(a.min(b), a.max(b))).is_ok()
+        (a.max(b) as usize) < self.points.len()
+            && self.joined.binary_search(&(a.min(b), a.max(b))).is_ok()
     }
 }

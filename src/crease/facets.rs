@@ -7,6 +7,8 @@
 
 use crate::error::{Result, proceed_unless};
 use crate::math::{Vec3, cross_normal, unit};
+use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD, origin, target};
+use crate::mesh::pairing::pair_halfedges;
 use crate::patch::HoleShape;
 
 /// Rounds of filtering.
@@ -63,7 +65,8 @@ impl<'a> Facets<'a> {
 
     /// Finds out which triangles meet in which edge.
     pub(super) fn find_edges(&mut self) {
-        self.edges = shared_edges(self.triangles());
+        let vertex_count = self.hole.points.len() + self.hole.surroundings.points.len();
+        self.edges = shared_edges(self.triangles(), vertex_count);
     }
 
     pub(super) fn triangles(&self) -> &[[u32; 3]] {
@@ -166,23 +169,21 @@ impl<'a> Facets<'a> {
     }
 }
 
-fn shared_edges(triangles: &[[u32; 3]]) -> Vec<SharedEdge> {
-    let mut halfedges: Vec<(u32, u32, bool, u32)> = Vec::with_capacity(3 * triangles.len());
-    for (f, t) in (0..).zip(triangles) {
-        for k in 0..3 {
-            let (a, b) = (t[k], t[(k + 1) % 3]);
-            halfedges.push((a.min(b), a.max(b), a > b, f));
-        }
-    }
-    halfedges.sort_unstable();
-    let mut edges = Vec::with_capacity(halfedges.len() / 2);
-    for same in halfedges.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1)) {
-        if let [(a, b, false, f), (_, _, true, g)] = *same {
-            edges.push(SharedEdge {
-                vertices: [a, b],
-                faces: [f, g],
-            });
-        }
-    }
+/// The edges with two consistently oriented triangles, by their ends.
+fn shared_edges(triangles: &[[u32; 3]], vertex_count: usize) -> Vec<SharedEdge> {
+    let mut edges: Vec<SharedEdge> = (0_u32..)
+        .zip(pair_halfedges(triangles, vertex_count))
+        .filter_map(|(h, twin)| {
+            let vertices = [origin(triangles, h), target(triangles, h)];
+            let is_shared = !matches!(twin, BOUNDARY | NON_MANIFOLD)
+                && vertices[0] < vertices[1]
+                && origin(triangles, twin) == vertices[1];
+            is_shared.then_some(SharedEdge {
+                vertices,
+                faces: [h / 3, twin / 3],
+            })
+        })
+        .collect();
+    edges.sort_unstable_by_key(|e| e.vertices);
     edges
 }

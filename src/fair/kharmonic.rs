@@ -18,7 +18,7 @@
 //!
 //! Not guaranteed: that the result has no self-intersection, nor that it stays near the rim.
 
-use super::laplacian::{Domain, Weights};
+use super::laplacian::{Domain, Entry, Weights};
 use crate::error::{Result, proceed_every, proceed_unless};
 use crate::math::Vec3;
 use crate::math::sparse::{SpdSolver, SymmetricMatrix};
@@ -39,6 +39,8 @@ pub(crate) enum Order {
 const COLUMNS_PER_CHECK: usize = 1 << 11;
 /// Entries of a column from the diagonal down, with two rings round a vertex of degree six.
 const USUAL_COLUMN: usize = 10;
+/// Entries of a row of the Laplacian at a vertex of degree six.
+const USUAL_ROW: usize = 7;
 
 /// Moves the interior vertices of `surface` to the minimum of the energy. `solver` knows whom to ask whether to
 /// go on.
@@ -210,6 +212,7 @@ impl<'a> Operator<'a> {
             }
             fixed[v] -= diagonal * p;
         }
+        let rows = self.interior_rows();
         let mut scratch = Scratch::new(domain.vertex_count());
         let interior = domain.patch_count - domain.rim_count;
         let mut matrix = SymmetricMatrix {
@@ -219,48 +222,56 @@ impl<'a> Operator<'a> {
         };
         matrix.column_starts.push(0);
         let mut right_side = Vec::with_capacity(interior);
-        let mut column: Vec<(u32, f64)> = Vec::new();
         for v in domain.rim_count..domain.patch_count {
             proceed_every(COLUMNS_PER_CHECK, v, interrupted)?;
             self.weighted_column(v, &mut scratch);
-            scratch.c.clear();
+            let Scratch { b, c, .. } = &mut scratch;
+            c.clear();
             let mut sum = Vec3::zeros();
-            for &r in &scratch.b.support {
-                let value = scratch.b.values[r as usize];
+            for &r in &b.support {
+                let value = b.values[r as usize];
                 sum -= value * fixed[r as usize];
-                self.add_interior_row(r as usize, value, v, &mut scratch.c);
+                let from_the_end = rows.of(r).iter().rev();
+                for e in from_the_end.take_while(|e| e.column as usize >= v) {
+                    c.add(e.column, value * e.weight);
+                }
             }
             right_side.push(sum);
-            column.clear();
-            column.extend(
-                scratch
-                    .c
-                    .support
-                    .iter()
-                    .map(|&i| (i, scratch.c.values[i as usize])),
-            );
-            column.sort_unstable_by_key(|&(i, _)| i);
+            c.support.sort_unstable();
             let first = domain.rim_count as u32;
-            matrix.rows.extend(column.iter().map(|&(i, _)| i - first));
-            matrix.values.extend(column.iter().map(|&(_, value)| value));
+            matrix.rows.extend(c.support.iter().map(|&i| i - first));
+            let values = c.support.iter().map(|&i| c.values[i as usize]);
+            matrix.values.extend(values);
             matrix.column_starts.push(matrix.rows.len() as u32);
         }
         Ok((matrix, right_side))
     }
 
-    /// `out += factor * L[row, i]` for the interior vertices `i >= from`.
-    fn add_interior_row(&self, row: usize, factor: f64, from: usize, out: &mut SparseVector) {
-        let interior = from..self.domain.patch_count;
-        let mut diagonal = 0.0;
-        for e in self.domain.row(row) {
-            diagonal += e.weight;
-            if interior.contains(&(e.column as usize)) {
-                out.add(e.column, factor * e.weight);
+    /// The rows of `L` at the summed vertices, diagonal included, as far as they lie over interior vertices.
+    fn interior_rows(&self) -> Rows {
+        let domain = self.domain;
+        let interior = domain.rim_count..domain.patch_count;
+        let mut rows = Rows {
+            starts: Vec::with_capacity(domain.vertex_count() + 1),
+            entries: Vec::with_capacity(USUAL_ROW * interior.len()),
+        };
+        rows.starts.push(0);
+        for (r, is_summed) in self.is_summed.iter().enumerate() {
+            if *is_summed {
+                let row = domain.row(r);
+                let (before, behind) =
+                    row.split_at(row.partition_point(|e| (e.column as usize) < r));
+                let diagonal = Entry {
+                    column: r as u32,
+                    weight: -row.iter().map(|e| e.weight).sum::<f64>(),
+                };
+                let whole = before.iter().chain([&diagonal]).chain(behind);
+                let inside = whole.filter(|e| interior.contains(&(e.column as usize)));
+                rows.entries.extend(inside);
             }
+            rows.starts.push(rows.entries.len() as u32);
         }
-        if interior.contains(&row) {
-            out.add(row as u32, -factor * diagonal);
-        }
+        rows
     }
 
     fn fixed_vertices(&self) -> impl Iterator<Item = usize> {
@@ -301,6 +312,19 @@ fn membrane_equations(
         matrix.column_starts.push(matrix.rows.len() as u32);
     }
     Ok((matrix, right_side))
+}
+
+/// Sparse rows with ascending columns.
+struct Rows {
+    starts: Vec<u32>,
+    entries: Vec<Entry>,
+}
+
+impl Rows {
+    fn of(&self, row: u32) -> &[Entry] {
+        let r = row as usize;
+        &self.entries[self.starts[r] as usize..self.starts[r + 1] as usize]
+    }
 }
 
 struct Scratch {

@@ -150,12 +150,13 @@ impl Domain {
         for v in 0..count {
             starts[v + 1] += starts[v];
         }
+        // Half of each edge's weight for either direction, by column.
         let mut slots = starts.clone();
         let zero = Entry {
             column: 0,
             weight: 0.0,
         };
-        let mut half_edges = vec![zero; 6 * self.triangles.len()];
+        let mut by_column = vec![zero; 6 * self.triangles.len()];
         for (i, t) in self.triangles.iter().enumerate() {
             if i % ROWS_PER_CHECK == ROWS_PER_CHECK - 1 {
                 proceed_unless(interrupted)?;
@@ -169,14 +170,30 @@ impl Domain {
             for k in 0..3 {
                 let (a, b) = (t[(k + 1) % 3], t[(k + 2) % 3]);
                 for (row, column) in [(a, b), (b, a)] {
-                    let slot = &mut slots[row as usize];
-                    half_edges[*slot as usize] = Entry {
-                        column,
+                    let slot = &mut slots[column as usize];
+                    by_column[*slot as usize] = Entry {
+                        column: row,
                         weight: cotangents[k] / 2.0,
                     };
                     *slot += 1;
                 }
                 self.areas[t[k] as usize] += areas[k];
+            }
+        }
+        // Taken column by column, the entries of each row come in ascending order.
+        slots.copy_from_slice(&starts);
+        let mut half_edges = vec![zero; by_column.len()];
+        for column in 0..count {
+            if column % ROWS_PER_CHECK == ROWS_PER_CHECK - 1 {
+                proceed_unless(interrupted)?;
+            }
+            for entry in &by_column[starts[column] as usize..starts[column + 1] as usize] {
+                let slot = &mut slots[entry.column as usize];
+                half_edges[*slot as usize] = Entry {
+                    column: column as u32,
+                    weight: entry.weight,
+                };
+                *slot += 1;
             }
         }
         // Nearly every edge has two triangles.
@@ -187,8 +204,7 @@ impl Domain {
             if v % ROWS_PER_CHECK == ROWS_PER_CHECK - 1 {
                 proceed_unless(interrupted)?;
             }
-            let row = &mut half_edges[starts[v] as usize..starts[v + 1] as usize];
-            row.sort_by_key(|e| e.column);
+            let row = &half_edges[starts[v] as usize..starts[v + 1] as usize];
             for same in row.chunk_by(|a, b| a.column == b.column) {
                 self.is_complete[v] &= same.len() == 2;
                 let weight = match weights {

@@ -118,6 +118,7 @@ mod tests {
     use super::*;
     use crate::fixtures;
     use crate::math::Vec3;
+    use crate::mesh::connectivity::BOUNDARY;
 
     /// A sphere that is built from its first triangles and gets the others in pieces.
     #[test]
@@ -135,6 +136,7 @@ mod tests {
         let patch = AppendedPatch {
             points: &points,
             triangles: &[[base, base + 1, base + 2]],
+            twins: &[BOUNDARY; 3],
         };
         let mut counts = Vec::new();
         let mut lengths: Vec<usize> = (first..whole.len()).step_by(7).collect();

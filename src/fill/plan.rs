@@ -27,6 +27,8 @@ pub(crate) struct Plan {
     pub(crate) points: Vec<Vec3>,
     /// Indices below the rim count are rim vertices, the others new ones.
     triangles: Vec<[u32; 3]>,
+    /// For each halfedge of the triangles the other one of its edge.
+    pub(crate) twins: Vec<u32>,
     pub(crate) self_intersections: usize,
     pub(crate) min_angle: f64,
     pub(crate) attributes: CarriedAttributes,
@@ -183,7 +185,7 @@ impl Planner<'_> {
         method: Method,
     ) -> Result<Candidate> {
         let surface = maker.patch(method)?;
-        check_patch(hole, &surface, farthest(method), self.interrupted)?;
+        let twins = check_patch(hole, &surface, farthest(method), self.interrupted)?;
         proceed_unless(self.interrupted)?;
         let points: Vec<Vec3> = surface.points[surface.rim_count..]
             .iter()
@@ -193,6 +195,7 @@ impl Planner<'_> {
         let patch = AppendedPatch {
             points: &points,
             triangles: &triangles,
+            twins: &twins,
         };
         let intersections = self
             .index
@@ -200,6 +203,7 @@ impl Planner<'_> {
         Ok(Candidate {
             method,
             surface,
+            twins,
             points,
             intersections,
         })
@@ -214,6 +218,7 @@ impl Planner<'_> {
         let Candidate {
             method,
             surface,
+            twins,
             points,
             intersections,
         } = candidate;
@@ -241,6 +246,7 @@ impl Planner<'_> {
             tried,
             points,
             triangles: surface.triangles,
+            twins,
             self_intersections: intersections.total(),
             min_angle,
             attributes,
@@ -252,6 +258,7 @@ impl Planner<'_> {
 struct Candidate {
     method: Method,
     surface: PatchSurface,
+    twins: Vec<u32>,
     points: Vec<Vec3>,
     intersections: SelfIntersections,
 }

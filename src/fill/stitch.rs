@@ -225,6 +225,7 @@ impl<'a> Stitcher<'a> {
         let patch = AppendedPatch {
             points: &plan.points,
             triangles,
+            twins: &plan.twins,
         };
         near.iter()
             .map(|&i| self.stitched[i as usize].clone())
@@ -244,6 +245,7 @@ impl<'a> Stitcher<'a> {
         let patch = AppendedPatch {
             points: &plan.points,
             triangles,
+            twins: &plan.twins,
         };
         count(part(self.mesh, range.clone()), tree, patch).with_mesh
     }
@@ -252,11 +254,11 @@ impl<'a> Stitcher<'a> {
         let vertices = self.mesh.positions().len();
         let faces = self.mesh.triangles().len();
         let points: Vec<[f64; 3]> = plan.points.iter().map(|&p| p.into()).collect();
-        let appended = self
-            .mesh
-            .append(&points, triangles, |of_vertices, of_faces| {
-                plan.attributes.append_to(of_vertices, of_faces)
-            });
+        let appended =
+            self.mesh
+                .append(&points, triangles, &plan.twins, |of_vertices, of_faces| {
+                    plan.attributes.append_to(of_vertices, of_faces)
+                });
         if let Err(error) = appended {
             return Outcome::failed(error, plan.tried);
         }

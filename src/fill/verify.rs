@@ -5,7 +5,8 @@ use super::method::Method;
 use crate::error::{Error, Result, proceed_unless};
 use crate::math::aabb::Aabb;
 use crate::math::cross_normal;
-use crate::mesh::connectivity::BOUNDARY;
+use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD, origin, target};
+use crate::mesh::pairing::pair_halfedges;
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::PatchSurface;
 
@@ -36,6 +37,8 @@ pub(crate) fn farthest(method: Method) -> f64 {
 /// without area; all points must be finite, near the hole and used; the Euler characteristic must be that
 /// of a disk, less one for each island.
 ///
+/// Returns the pairs of the triangles' halfedges, which it finds on the way.
+///
 /// # Errors
 /// [`crate::ErrorKind::Topology`] or [`crate::ErrorKind::Geometry`] with the first violation found; `Cancelled` when
 /// `interrupted`, which is asked between the checks, returns true.
@@ -44,7 +47,7 @@ pub(crate) fn check_patch(
     surface: &PatchSurface,
     farthest: f64,
     interrupted: &dyn Fn() -> bool,
-) -> Result<()> {
+) -> Result<Vec<u32>> {
     if let Some(v) = surface
         .points
         .iter()
@@ -66,7 +69,6 @@ pub(crate) fn check_patch(
         .map(|i| (hole.shape.polygon[i], hole.shape.polygon[(i + 1) % m]))
         .collect();
     rim_edges.sort_unstable();
-    let mut edges = Vec::with_capacity(3 * surface.triangles.len());
     for t in &surface.triangles {
         if t[0] == t[1] || t[1] == t[2] || t[2] == t[0] {
             return Err(Error::topology(format!(
@@ -77,10 +79,9 @@ pub(crate) fn check_patch(
         if cross_normal(a, b, c).norm() < SMALLEST_DOUBLE_AREA {
             return Err(Error::geometry("a new triangle has no area".to_owned()));
         }
-        edges.extend((0..3).map(|k| edge_key(t[k], t[(k + 1) % 3])));
     }
     proceed_unless(interrupted)?;
-    edges.sort_unstable();
+    let twins = pair_halfedges(&surface.triangles, surface.points.len());
     proceed_unless(interrupted)?;
     let mut is_used = vec![false; surface.points.len()];
     surface
@@ -95,21 +96,26 @@ pub(crate) fn check_patch(
     }
     let mut edge_count = 0;
     let mut rim_edges_met = 0;
-    for same in edges.chunk_by(|e, f| e >> 1 == f >> 1) {
-        let (a, b) = edge_of(same[0]);
-        let is_rim = rim_edges.binary_search(&(a, b)).is_ok();
-        let is_right = match same {
-            [_] => is_rim,
-            [e, f] => e != f && !is_rim && !hole.shape.is_joined(a, b),
-            _ => false,
+    for (h, twin) in (0_u32..).zip(&twins) {
+        let (a, b) = (origin(&surface.triangles, h), target(&surface.triangles, h));
+        let is_rim = |edge| rim_edges.binary_search(&edge).is_ok();
+        let is_right = match *twin {
+            BOUNDARY => is_rim((a, b)),
+            NON_MANIFOLD => false,
+            // The other halfedge has been looked at.
+            twin if twin < h => continue,
+            twin => {
+                let joins_rim = a.max(b) < surface.rim_count as u32;
+                let is_known = || is_rim((a, b)) || is_rim((b, a)) || hole.shape.is_joined(a, b);
+                origin(&surface.triangles, twin) == b && !(joins_rim && is_known())
+            }
         };
         if !is_right {
-            return Err(Error::topology(format!(
-                "an edge of the patch would have {} new triangles or join two vertices twice",
-                same.len()
-            )));
+            return Err(Error::topology(
+                "an edge of the patch would be open, have more than two new triangles, or join two vertices twice",
+            ));
         }
-        rim_edges_met += usize::from(is_rim);
+        rim_edges_met += usize::from(*twin == BOUNDARY);
         edge_count += 1;
     }
     if rim_edges_met != rim_edges.len() {
@@ -128,22 +134,7 @@ pub(crate) fn check_patch(
             "the patch has the Euler characteristic {found} instead of {expected}"
         )));
     }
-    Ok(())
-}
-
-/// A directed edge as one number, so that the two directions of an edge sort next to each other. Patch vertices
-/// are fewer than 2^31.
-fn edge_key(a: u32, b: u32) -> u64 {
-    u64::from(a.min(b)) << 32 | u64::from(a.max(b)) << 1 | u64::from(a > b)
-}
-
-fn edge_of(key: u64) -> (u32, u32) {
-    let (low, high) = ((key >> 32) as u32, (key as u32) >> 1);
-    if key & 1 == 0 {
-        (low, high)
-    } else {
-        (high, low)
-    }
+    Ok(twins)
 }
 
 /// Checks a patch, given by its triangles in the mesh's vertex indices, against the mesh as it is now:

@@ -163,29 +163,22 @@ impl Connectivity {
         })
     }
 
-    /// Links the triangles from `first_face` on, which were appended to `triangles`, with each other
-    /// and with the boundary. Cost follows the number of appended triangles.
+    /// Links the triangles from `first_face` on, which were appended to `triangles`, with each other, as `twins`
+    /// says ([`pair_halfedges`](super::pairing::pair_halfedges) of them alone), and with the boundary. Cost follows the
+    /// number of appended triangles.
     ///
     /// Requires that the appended triangles close boundary edges with opposite halfedges and share no
     /// edge with any other triangle; the pipeline verifies that before it appends.
-    pub(crate) fn append(&mut self, triangles: &[[u32; 3]], first_face: usize) {
+    pub(crate) fn append(&mut self, triangles: &[[u32; 3]], first_face: usize, twins: &[u32]) {
         let halfedges = 3 * first_face as u32..3 * triangles.len() as u32;
         let ends = |h: u32| (origin(triangles, h), target(triangles, h));
         self.twin.resize(3 * triangles.len(), BOUNDARY);
-        // The two halfedges of an edge between appended triangles sort next to each other.
-        let mut edges: Vec<(u64, u32)> = halfedges
-            .clone()
-            .map(|h| {
-                let (a, b) = ends(h);
-                (u64::from(a.min(b)) << 32 | u64::from(a.max(b)), h)
-            })
-            .collect();
-        edges.sort_unstable();
+        let first_halfedge = halfedges.start;
         let mut rim = Vec::new();
-        for same in edges.chunk_by(|x, y| x.0 == y.0) {
-            match *same {
-                [(_, g), (_, h)] => self.link(g, h),
-                _ => rim.extend(same.iter().map(|&(_, h)| h)),
+        for (h, twin) in halfedges.clone().zip(twins) {
+            match *twin {
+                BOUNDARY | NON_MANIFOLD => rim.push(h),
+                twin => self.twin[h as usize] = first_halfedge + twin,
             }
         }
         for &h in &rim {

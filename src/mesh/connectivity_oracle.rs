@@ -4,6 +4,7 @@ use super::connectivity::{
     BOUNDARY, Connectivity, DEGENERATE, NON_MANIFOLD, Outgoing, is_degenerate, origin, target,
 };
 use super::defects::{Defect, MeshDefects};
+use super::pairing::pair_halfedges;
 use proptest::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -181,7 +182,8 @@ proptest! {
         let (mut connectivity, _) =
             Connectivity::build(vertex_count as usize, &triangles[..kept]).expect("valid indices");
         let was_open = connectivity.boundary_halfedges().len();
-        connectivity.append(&triangles, kept);
+        let twins = pair_halfedges(&triangles[kept..], vertex_count as usize);
+        connectivity.append(&triangles, kept, &twins);
         let (whole, _) =
             Connectivity::build(vertex_count as usize, &triangles).expect("valid indices");
         prop_assert_eq!(links(&connectivity), links(&whole));

@@ -4,6 +4,7 @@ use super::connectivity::{
     BOUNDARY, Connectivity, DEGENERATE, NON_MANIFOLD, next, origin, previous, target,
 };
 use super::defects::MeshDefects;
+use super::pairing::pair_halfedges;
 use super::trimesh::TriMesh;
 use crate::error::ErrorKind;
 use crate::fixtures::{self, Noise, fixtures};
@@ -138,7 +139,8 @@ proptest! {
         let count = whole.positions.len();
         let (mut grown, _) = Connectivity::build(count, &whole.triangles[..cuts[0]]).unwrap();
         for pair in cuts.windows(2) {
-            grown.append(&whole.triangles[..pair[1]], pair[0]);
+            let twins = pair_halfedges(&whole.triangles[pair[0]..pair[1]], count);
+            grown.append(&whole.triangles[..pair[1]], pair[0], &twins);
         }
         let (built, _) = Connectivity::build(count, &whole.triangles).unwrap();
         prop_assert_eq!(links(&grown), links(&built));

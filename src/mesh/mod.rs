@@ -6,6 +6,7 @@ pub(crate) mod connectivity;
 mod connectivity_oracle;
 pub(crate) mod defects;
 mod linking;
+pub(crate) mod pairing;
 mod rim_table;
 pub(crate) mod rings;
 mod survey;

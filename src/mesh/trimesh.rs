@@ -146,11 +146,13 @@ impl TriMesh {
 
     /// Appends vertices and triangles; the caller extends the attributes by as many entries.
     ///
-    /// Cost follows what is appended. See [`Connectivity::append`] for what is required.
+    /// `twins` pairs the halfedges of the triangles. Cost follows what is appended. See [`Connectivity::append`] for
+    /// what is required.
     pub(crate) fn append(
         &mut self,
         points: &[[f64; 3]],
         triangles: &[[u32; 3]],
+        twins: &[u32],
         extend_attributes: impl FnOnce(&mut Attributes, &mut Attributes) -> Result<()>,
     ) -> Result<()> {
         extend_attributes(&mut self.vertex_attributes, &mut self.face_attributes)?;
@@ -159,7 +161,7 @@ impl TriMesh {
         self.triangles.extend_from_slice(triangles);
         debug_assert_eq!(self.vertex_attributes.len(), self.positions.len());
         debug_assert_eq!(self.face_attributes.len(), self.triangles.len());
-        self.connectivity.append(&self.triangles, first_face);
+        self.connectivity.append(&self.triangles, first_face, twins);
         Ok(())
     }
 

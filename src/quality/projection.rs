@@ -7,10 +7,11 @@
 //! as often as the outline winds round it, which is once at most. Nothing is assumed about the topology of the
 //! patch but that its open edges make up one closed outline.
 //!
-//! Complexity: O(m log m) for m triangles, O(k²) at worst for k edges of the outline. What is not proved may
+//! Complexity: O(m log m) at worst for m triangles, O(k²) at worst for k edges of the outline. What is not proved may
 //! still be sound: saddles, patches that bend by more than a right angle, several outlines.
 
 use crate::math::{Vec3, cross_normal};
+use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD, origin, target};
 
 /// Least cosine between the normals and the direction, 73 degrees: triangles seen edge-on prove nothing.
 const LEAST_COSINE: f64 = 0.3;
@@ -18,8 +19,13 @@ const LEAST_COSINE: f64 = 0.3;
 /// Edges of the outline that come closer than this share of its extent may touch but for rounding.
 const CLEARANCE: f64 = 1e-6;
 
-/// Whether the patch of `triangles`, whose positions are `corners`, provably has no two triangles that intersect.
-pub(super) fn covers_nothing_twice(triangles: &[[u32; 3]], corners: &[[Vec3; 3]]) -> bool {
+/// Whether the patch of `triangles`, with its pairs of halfedges and its positions `corners`, provably has no two
+/// triangles that intersect.
+pub(super) fn covers_nothing_twice(
+    triangles: &[[u32; 3]],
+    twins: &[u32],
+    corners: &[[Vec3; 3]],
+) -> bool {
     let normals: Vec<Vec3> = corners
         .iter()
         .map(|[a, b, c]| cross_normal(a, b, c))
@@ -36,28 +42,20 @@ pub(super) fn covers_nothing_twice(triangles: &[[u32; 3]], corners: &[[Vec3; 3]]
         along > 0.0 && along * along > LEAST_COSINE * LEAST_COSINE * n.norm_squared()
     };
     normals.iter().all(faces_viewer)
-        && outline(triangles, corners).is_some_and(|outline| is_simple(&outline, &view))
+        && outline(triangles, twins, corners).is_some_and(|outline| is_simple(&outline, &view))
 }
 
 /// The positions along the open edges of the triangles, if these make up one closed polygon.
-fn outline(triangles: &[[u32; 3]], corners: &[[Vec3; 3]]) -> Option<Vec<Vec3>> {
-    // The two directions of an edge sort next to each other.
-    let mut edges = Vec::with_capacity(3 * triangles.len());
-    for (i, t) in (0_u32..).zip(triangles) {
-        edges.extend((0..3).map(|k| {
-            let (a, b) = (t[k as usize], t[(k as usize + 1) % 3]);
-            (u64::from(a.min(b)) << 32 | u64::from(a.max(b)), 3 * i + k)
-        }));
-    }
-    edges.sort_unstable();
-    let vertex = |h: u32| triangles[h as usize / 3][h as usize % 3];
-    let end = |h: u32| triangles[h as usize / 3][(h as usize % 3 + 1) % 3];
+fn outline(triangles: &[[u32; 3]], twins: &[u32], corners: &[[Vec3; 3]]) -> Option<Vec<Vec3>> {
+    let start = |h: u32| origin(triangles, h);
+    let end = |h: u32| target(triangles, h);
     let mut open: Vec<(u32, u32)> = Vec::new();
-    for same in edges.chunk_by(|x, y| x.0 == y.0) {
-        match *same {
-            [(_, h)] => open.push((vertex(h), h)),
-            [(_, g), (_, h)] if vertex(g) == end(h) => {}
-            _ => return None,
+    for (h, twin) in (0_u32..).zip(twins) {
+        match *twin {
+            BOUNDARY => open.push((start(h), h)),
+            NON_MANIFOLD => return None,
+            twin if start(twin) == start(h) => return None,
+            _ => {}
         }
     }
     open.sort_unstable();
@@ -145,6 +143,7 @@ fn lies_beside(s: &Segment, t: &Segment, room: f64) -> bool {
 mod tests {
     use super::super::intersect::intersects_improperly;
     use super::*;
+    use crate::mesh::pairing::pair_halfedges;
     use proptest::prelude::*;
 
     /// The fan from the origin to the points of a closed polygon, closed or with its last triangle left out.
@@ -156,6 +155,10 @@ mod tests {
         let point = |v: u32| rim.get(v as usize).copied().unwrap_or_default();
         let corners = triangles.iter().map(|t| t.map(point)).collect();
         (triangles, corners)
+    }
+
+    fn is_proved(triangles: &[[u32; 3]], corners: &[[Vec3; 3]]) -> bool {
+        covers_nothing_twice(triangles, &pair_halfedges(triangles, 64), corners)
     }
 
     fn ring(n: usize, turns: f64, rise: f64) -> Vec<Vec3> {
@@ -170,10 +173,10 @@ mod tests {
     #[test]
     fn a_disk_is_proved_and_what_winds_twice_is_not() {
         let (triangles, corners) = fan(&ring(12, 1.0, 0.0), true);
-        assert!(covers_nothing_twice(&triangles, &corners));
+        assert!(is_proved(&triangles, &corners));
         // A staircase of two turns faces up everywhere, and covers everything twice.
         let (triangles, corners) = fan(&ring(24, 2.0, 0.01), false);
-        assert!(!covers_nothing_twice(&triangles, &corners));
+        assert!(!is_proved(&triangles, &corners));
     }
 
     #[test]
@@ -186,7 +189,7 @@ mod tests {
             .collect();
         triangles.extend(copies);
         corners.extend(shifted);
-        assert!(!covers_nothing_twice(&triangles, &corners));
+        assert!(!is_proved(&triangles, &corners));
     }
 
     #[test]
@@ -194,8 +197,8 @@ mod tests {
         let (mut triangles, mut corners) = fan(&ring(6, 1.0, 0.0), true);
         triangles[2].swap(1, 2);
         corners[2].swap(1, 2);
-        assert!(!covers_nothing_twice(&triangles, &corners));
-        assert!(!covers_nothing_twice(&[], &[]));
+        assert!(!is_proved(&triangles, &corners));
+        assert!(!is_proved(&[], &[]));
     }
 
     proptest! {
@@ -211,7 +214,7 @@ mod tests {
                 Vec3::new(r * angle.cos(), r * angle.sin(), *z)
             }).collect();
             let (triangles, corners) = fan(&rim, is_closed);
-            if covers_nothing_twice(&triangles, &corners) {
+            if is_proved(&triangles, &corners) {
                 for (i, t) in corners.iter().enumerate() {
                     for u in &corners[..i] {
                         prop_assert!(!intersects_improperly(t, u), "{t:?} {u:?}");

@@ -45,6 +45,9 @@ pub(crate) struct AppendedPatch<'a> {
     pub(crate) points: &'a [Vec3],
     /// Triangles of mesh vertices and new vertices.
     pub(crate) triangles: &'a [[u32; 3]],
+    /// For each halfedge of the triangles the other one of its edge, from
+    /// [`pair_halfedges`](crate::mesh::pairing::pair_halfedges).
+    pub(crate) twins: &'a [u32],
 }
 
 /// Two triangles that intersect.
@@ -127,7 +130,8 @@ pub(crate) fn count_unless(
         corners: &corners,
         boxes: &boxes,
     };
-    let is_sound = corners.len() <= PROVABLE && covers_nothing_twice(patch.triangles, &corners);
+    let is_sound =
+        corners.len() <= PROVABLE && covers_nothing_twice(patch.triangles, patch.twins, &corners);
     if corners.len() <= PIECE {
         Ok(task.sweep(is_sound))
     } else {
@@ -309,6 +313,8 @@ fn tally(mut pairs: Vec<Pair>) -> SelfIntersections {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::connectivity::BOUNDARY;
+    use crate::mesh::pairing::pair_halfedges;
     use proptest::prelude::*;
 
     /// All pairs, without boxes.
@@ -356,7 +362,7 @@ mod tests {
             let of_patch: Vec<_> = of_patch.iter().map(|t| ids(t, points.len())).collect();
             check(
                 Surface { points: own, triangles: &of_mesh },
-                AppendedPatch { points: new, triangles: &of_patch },
+                AppendedPatch { points: new, triangles: &of_patch, twins: &pair_halfedges(&of_patch, points.len()) },
             );
         }
     }
@@ -393,6 +399,7 @@ mod tests {
                 AppendedPatch {
                     points: &[],
                     triangles: rest,
+                    twins: &pair_halfedges(rest, points.len()),
                 },
             );
             assert_eq!(found, SelfIntersections::default(), "n = {n}");
@@ -413,6 +420,7 @@ mod tests {
             let patch = AppendedPatch {
                 points: &bump,
                 triangles: &bump_triangles,
+                twins: &pair_halfedges(&bump_triangles, points.len() + bump.len()),
             };
             let found = check(mesh, patch);
             assert!(found.with_mesh >= n as usize && found.within_patch == 0);
@@ -430,6 +438,7 @@ mod tests {
         let patch = AppendedPatch {
             points: &[],
             triangles: &[[0, 2, 1]],
+            twins: &[BOUNDARY; 3],
         };
         assert_eq!(check(mesh, patch).examples, [Pair::WithMesh(0, 0)]);
     }
@@ -445,6 +454,7 @@ mod tests {
         let patch = AppendedPatch {
             points: &layer,
             triangles: &[[3, 4, 5]],
+            twins: &[BOUNDARY; 3],
         };
         assert_eq!(check(mesh, patch).with_mesh, 1);
     }
@@ -460,6 +470,7 @@ mod tests {
             let patch = AppendedPatch {
                 points: &[],
                 triangles: &triangles,
+                twins: &pair_halfedges(&triangles, points.len()),
             };
             let faces = FaceIndex::build(mesh);
             let found = count(mesh, &faces, patch);

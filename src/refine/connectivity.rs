@@ -6,10 +6,12 @@
 //! every open fan of triangles round a vertex starts at one of them, so a vertex that the rim
 //! passes several times (a pinch) needs no special case.
 //!
-//! Building sorts the edges, `O(n log n)`; splits and flips are `O(1)`; the edge test walks
+//! Building takes `O(n log n)` at worst; splits and flips are `O(1)`; the edge test walks
 //! round an interior end, `O(valence)`, or else round both ends in step, `O(smaller valence)`.
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD};
+use crate::mesh::pairing::pair_halfedges;
 
 /// A half-edge: three times its triangle plus its corner.
 pub(super) type Halfedge = u32;
@@ -83,7 +85,7 @@ impl Connectivity {
             )));
         }
         let mut mesh = Self {
-            opposite: vec![NONE; 3 * triangles.len()],
+            opposite: Vec::new(),
             start: vec![NONE; vertex_count],
             rim_count,
             rim_edges: Vec::new(),
@@ -96,48 +98,26 @@ impl Connectivity {
         Ok(mesh)
     }
 
-    /// Finds the two half-edges of every edge by bucketing on the smaller end.
+    /// Finds the two half-edges of every edge.
     fn pair_halfedges(&mut self) -> Result<()> {
-        let count = self.opposite.len() as u32;
-        let low = |h| self.origin(h).min(self.target(h));
-        let mut first = vec![0u32; self.start.len() + 1];
-        for h in 0..count {
-            first[low(h) as usize + 1] += 1;
-        }
-        for v in 1..first.len() {
-            first[v] += first[v - 1];
-        }
-        // (larger end, half-edge), grouped by smaller end
-        let mut entries = vec![(0u32, 0u32); count as usize];
-        let mut fill = first.clone();
-        for h in 0..count {
-            let slot = &mut fill[low(h) as usize];
-            entries[*slot as usize] = (self.origin(h).max(self.target(h)), h);
-            *slot += 1;
-        }
-        for bucket in first.windows(2) {
-            let bucket = &mut entries[bucket[0] as usize..bucket[1] as usize];
-            bucket.sort_unstable();
-            for same in bucket.chunk_by(|x, y| x.0 == y.0) {
-                match *same {
-                    [_] => {}
-                    [(_, g), (_, h)] if self.origin(g) == self.target(h) => {
-                        self.opposite[g as usize] = h;
-                        self.opposite[h as usize] = g;
-                        if self.apex(g) == self.apex(h) {
-                            let t = self.triangles()[g as usize / 3];
-                            return Err(Error::topology(format!(
-                                "patch triangle {t:?} occurs twice"
-                            )));
-                        }
-                    }
-                    _ => {
-                        let (a, b) = (self.origin(same[0].1), self.target(same[0].1));
-                        return Err(Error::topology(format!(
-                            "patch edge {a} {b} is not manifold"
-                        )));
-                    }
-                }
+        self.opposite = pair_halfedges(self.triangles(), self.start.len());
+        for (h, &opposite) in (0_u32..).zip(&self.opposite) {
+            let is_paired = match opposite {
+                BOUNDARY => continue,
+                NON_MANIFOLD => false,
+                g => self.origin(g) == self.target(h),
+            };
+            if !is_paired {
+                let (a, b) = (self.origin(h), self.target(h));
+                return Err(Error::topology(format!(
+                    "patch edge {a} {b} is not manifold"
+                )));
+            }
+            if self.apex(opposite) == self.apex(h) {
+                let t = self.triangles()[h as usize / 3];
+                return Err(Error::topology(format!(
+                    "patch triangle {t:?} occurs twice"
+                )));
             }
         }
         Ok(())
@@ -145,7 +125,7 @@ impl Connectivity {
 
     fn list_rim_edges(&mut self) -> Result<()> {
         let mut edges: Vec<(u32, u32, Halfedge)> = (0..self.opposite.len() as u32)
-            .filter(|&h| self.opposite[h as usize] == NONE)
+            .filter(|&h| self.opposite[h as usize] == BOUNDARY)
             .map(|h| (self.origin(h), self.target(h), h))
             .collect();
         edges.sort_unstable();

@@ -168,6 +168,9 @@ struct SourceFile {
     text: String,
 }
 
+/// Folders that programs make and version control ignores.
+const BUILT: [&str; 3] = ["build", "inputs", "out"];
+
 /// All files under the repository's folder `folder` whose names end in one of `extensions`, in order.
 fn files(folder: &str, extensions: &[&str]) -> Vec<SourceFile> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -177,7 +180,9 @@ fn files(folder: &str, extensions: &[&str]) -> Vec<SourceFile> {
         for entry in fs::read_dir(folder).into_iter().flatten() {
             let path = entry.unwrap().path();
             if path.is_dir() {
-                folders.push(path);
+                if !BUILT.iter().any(|folder| path.ends_with(folder)) {
+                    folders.push(path);
+                }
             } else if extensions
                 .iter()
                 .any(|e| path.extension().is_some_and(|x| x == *e))

@@ -12,6 +12,7 @@ use crate::error::{Error, ErrorKind, Result, proceed_unless};
 use crate::fill::method::Method;
 use crate::fill::options::FillOptions;
 use crate::math::{Vec3, unit};
+use crate::mesh::pairing::pair_halfedges;
 use crate::patch::{HoleShape, PatchSurface, Surroundings};
 use crate::predict::creases::partition::{Face, Partition, partition};
 use crate::predict::creases::region::{RegionSurface, fit_regions};
@@ -243,6 +244,7 @@ impl Creases<'_> {
         let appended = AppendedPatch {
             points: &patch.points[patch.rim_count..],
             triangles: &triangles,
+            twins: &pair_halfedges(&patch.triangles, patch.points.len()),
         };
         count(mesh, &FaceIndex::build(mesh), appended).total() > 0
     }

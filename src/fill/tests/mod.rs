@@ -21,6 +21,7 @@ use crate::boundary::select::Selection;
 use crate::fixtures::Arrays;
 use crate::math::Vec3;
 use crate::mesh::connectivity::BOUNDARY;
+use crate::mesh::pairing::pair_halfedges;
 use crate::mesh::trimesh::TriMesh;
 use crate::quality::Surface;
 use crate::quality::self_intersection::{AppendedPatch, count};
@@ -225,6 +226,7 @@ impl Filled {
         let patch = AppendedPatch {
             points: &self.after.points()[self.before.positions().len()..],
             triangles: self.new_triangles(),
+            twins: &pair_halfedges(self.new_triangles(), self.after.positions().len()),
         };
         count(mesh, &FaceIndex::build(mesh), patch).total()
     }

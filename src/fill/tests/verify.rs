@@ -9,6 +9,7 @@ use crate::fill::methods::PatchMaker;
 use crate::fill::verify::{check_against_mesh, check_patch, farthest};
 use crate::fixtures::{self, Arrays};
 use crate::math::Vec3;
+use crate::mesh::pairing::pair_halfedges;
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::PatchSurface;
 
@@ -34,7 +35,7 @@ fn sphere_cap() -> (TriMesh, Hole, PatchSurface) {
     )
 }
 
-fn kind(result: Result<()>) -> Option<ErrorKind> {
+fn kind<T>(result: Result<T>) -> Option<ErrorKind> {
     result.err().map(|e| e.kind())
 }
 
@@ -207,7 +208,8 @@ fn a_rim_that_was_closed_in_the_meantime_is_caught() {
         kind(check_against_mesh(&mesh, &hole, &lid)),
         Some(ErrorKind::Topology)
     );
-    mesh.append(&[], &tent, |_, faces| faces.append_copies(&[0; 3]))
+    let twins = pair_halfedges(&tent, 4);
+    mesh.append(&[], &tent, &twins, |_, faces| faces.append_copies(&[0; 3]))
         .unwrap();
     assert_eq!(
         kind(check_against_mesh(&mesh, &hole, &lid)),

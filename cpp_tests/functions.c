@@ -132,6 +132,34 @@ static void count_lines(HolefillLogLevel level, const char *message, void *data)
     ++*(uint64_t *)data;
 }
 
+/* What was predicted for entry `index`, if anything was. */
+static void check_prediction(HolefillReport report, uint64_t index) {
+    HolefillPrediction prediction = HOLEFILL_PREDICTION_INIT;
+    const HolefillStatus status = holefill_report_prediction(report, index, &prediction, NULL);
+    const char *candidate = NULL;
+    char reason[256];
+    double distance = -1.0;
+    uint64_t k, length = 0;
+    if (status == HOLEFILL_STATUS_NOT_FOUND) {
+        CHECK(holefill_report_without_creases(report, index, reason, sizeof reason, &length, NULL) == status);
+        return;
+    }
+    CHECK_OK(status);
+    CHECK(prediction.chosen != NULL && prediction.noise >= 0.0);
+    CHECK(prediction.is_tip + prediction.is_flat <= 1);
+    for (k = 0; k < prediction.score_count; ++k) {
+        CHECK_OK(holefill_report_score(report, index, k, &candidate, &distance, NULL));
+        CHECK(candidate != NULL && distance >= 0.0);
+    }
+    CHECK(holefill_report_score(report, index, k, &candidate, &distance, NULL) == HOLEFILL_STATUS_NOT_FOUND);
+    for (k = 0; k < prediction.crease_surface_count; ++k) {
+        CHECK_OK(holefill_report_crease_surface(report, index, k, &candidate, NULL));
+        CHECK(candidate != NULL);
+    }
+    CHECK(holefill_report_crease_surface(report, index, k, &candidate, NULL) == HOLEFILL_STATUS_NOT_FOUND);
+    CHECK_OK(holefill_report_without_creases(report, index, reason, sizeof reason, &length, NULL));
+}
+
 static void check_report(HolefillReport report, uint64_t expected) {
     HolefillSummary summary = HOLEFILL_SUMMARY_INIT;
     HolefillHole hole = HOLEFILL_HOLE_INIT;
@@ -148,6 +176,7 @@ static void check_report(HolefillReport report, uint64_t expected) {
             CHECK_OK(holefill_report_tried(report, i, k, &method, reason, sizeof reason, &length, NULL));
             CHECK(method != NULL && length > 0);
         }
+        check_prediction(report, i);
         if (hole.status == HOLEFILL_HOLE_FILLED) {
             ++filled;
             CHECK(hole.method != NULL && hole.triangle_count > 0 && hole.min_angle > 0.0);

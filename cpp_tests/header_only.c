@@ -15,10 +15,11 @@ uint32_t header_only_use(void) {
     const HolefillPointSummary became = HOLEFILL_POINT_SUMMARY_INIT;
     const HolefillPatchInfo patch = HOLEFILL_PATCH_INFO_INIT;
     const HolefillHole hole = HOLEFILL_HOLE_INIT;
+    const HolefillPrediction prediction = HOLEFILL_PREDICTION_INIT;
     const HolefillSummary summary = HOLEFILL_SUMMARY_INIT;
     const HolefillInput input = HOLEFILL_INPUT_INIT;
     const HolefillOutput output = HOLEFILL_OUTPUT_INIT;
     return options.struct_size + selection.struct_size + mesh.struct_size + defects.struct_size +
            attribute.struct_size + loop.struct_size + points.struct_size + became.struct_size + patch.struct_size +
-           hole.struct_size + summary.struct_size + input.scalar_type + output.scalar_type;
+           hole.struct_size + prediction.struct_size + summary.struct_size + input.scalar_type + output.scalar_type;
 }

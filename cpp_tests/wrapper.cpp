@@ -84,6 +84,11 @@ void everything_once() {
     const holefill::Patch patch = plan.patch(id);
     CHECK(patch.first_vertex == a.positions.size() && !patch.positions.empty() && !patch.triangles.empty());
     CHECK(plan.report().hole(0).status == HOLEFILL_HOLE_FILLED);
+    const holefill::Hole predicted = mesh.plan_loop(id, holefill::Options().method("auto")).report().hole(0);
+    CHECK(predicted.prediction && predicted.prediction->chosen != nullptr);
+    CHECK(predicted.prediction->scores.size() == predicted.prediction->score_count);
+    CHECK(predicted.prediction->crease_surfaces.size() == predicted.prediction->crease_surface_count);
+    CHECK(!mesh.plan_loop(id, holefill::Options().method("fair-c1")).report().hole(0).prediction);
     CHECK(mesh.positions() == a.positions);
     mesh.apply(plan);
     const Points filled = mesh.positions(a.positions.size());

@@ -72,6 +72,8 @@
 #define HOLEFILL_HOLE_INIT \
     {(uint32_t)sizeof(HolefillHole), HOLEFILL_HOLE_VERSION, \
      0, 0, {0, 0}, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}
+#define HOLEFILL_PREDICTION_INIT \
+    {(uint32_t)sizeof(HolefillPrediction), HOLEFILL_PREDICTION_VERSION, 0, 0, 0, 0, 0, 0, 0}
 #define HOLEFILL_SUMMARY_INIT \
     {(uint32_t)sizeof(HolefillSummary), HOLEFILL_SUMMARY_VERSION, 0, 0, 0, 0, 0, 0, 0, 0, 0}
 
@@ -135,6 +137,11 @@
  * The version of `HolefillHole`.
  */
 #define HOLEFILL_HOLE_VERSION 1
+
+/**
+ * The version of `HolefillPrediction`.
+ */
+#define HOLEFILL_PREDICTION_VERSION 1
 
 /**
  * The version of `HolefillSummary`.
@@ -822,6 +829,50 @@ typedef struct HolefillHole {
      */
     double seconds;
 } HolefillHole;
+
+/**
+ * How the missing surface of a hole was predicted.
+ */
+typedef struct HolefillPrediction {
+    /**
+     * `sizeof(HolefillPrediction)`
+     */
+    uint32_t struct_size;
+    /**
+     * `HOLEFILL_PREDICTION_VERSION`
+     */
+    uint32_t version;
+    /**
+     * The name of the surface that was chosen among the candidates; not used where there are creases. Static text,
+     * never freed.
+     */
+    const char *chosen;
+    /**
+     * Standard deviation of the vertices round the hole from smooth surfaces, in units of the mean rim edge.
+     */
+    double noise;
+    /**
+     * Candidates that were compared: see `holefill_report_score`.
+     */
+    uint64_t score_count;
+    /**
+     * Creases in the patch.
+     */
+    uint64_t crease_count;
+    /**
+     * Surfaces between the creases: see `holefill_report_crease_surface`.
+     */
+    uint64_t crease_surface_count;
+    /**
+     * 1 when the hole was taken for the missing tip of a horn, higher than half a sphere.
+     */
+    uint32_t is_tip;
+    /**
+     * 1 when the hole was taken for a gap in a flat face: then the patch lies in the plane of the rim, whatever the
+     * scores say.
+     */
+    uint32_t is_flat;
+} HolefillPrediction;
 
 /**
  * The call did what it says; outputs are written.
@@ -1769,6 +1820,60 @@ HolefillStatus holefill_report_tried(struct HolefillReport report,
  * Frees a report. The handle 0 is allowed.
  */
 HOLEFILL_API HolefillStatus holefill_report_free(struct HolefillReport report);
+
+/**
+ * How the missing surface was predicted for the hole of entry `index`, where a method does so (`auto`, `curvature`).
+ * Whether the prediction stands is said by the hole's `method`.
+ *
+ * Statuses: `NOT_FOUND`, also when nothing was predicted.
+ */
+HOLEFILL_API
+HolefillStatus holefill_report_prediction(struct HolefillReport report,
+                                          uint64_t index,
+                                          struct HolefillPrediction *prediction,
+                                          struct HolefillError *error);
+
+/**
+ * The `score`-th candidate surface that was compared for the hole of entry `index`: its name as static text that is
+ * never freed, and in units of the mean rim edge the root mean square distance at which it missed the rings round the
+ * hole when it was fitted without them.
+ *
+ * Statuses: `NOT_FOUND`.
+ */
+HOLEFILL_API
+HolefillStatus holefill_report_score(struct HolefillReport report,
+                                     uint64_t index,
+                                     uint64_t score,
+                                     const char **candidate,
+                                     double *distance,
+                                     struct HolefillError *error);
+
+/**
+ * The `surface`-th surface between the creases in the patch for the hole of entry `index`, in the order in which the rim
+ * meets them: its name as static text that is never freed.
+ *
+ * Statuses: `NOT_FOUND`.
+ */
+HOLEFILL_API
+HolefillStatus holefill_report_crease_surface(struct HolefillReport report,
+                                              uint64_t index,
+                                              uint64_t surface,
+                                              const char **candidate,
+                                              struct HolefillError *error);
+
+/**
+ * Why creases that run into the hole of entry `index` were not continued; empty when they were, or when there are none.
+ * `buffer`, `capacity` and `length` as in `holefill_error_message`.
+ *
+ * Statuses: `NOT_FOUND`, also when nothing was predicted.
+ */
+HOLEFILL_API
+HolefillStatus holefill_report_without_creases(struct HolefillReport report,
+                                               uint64_t index,
+                                               char *buffer,
+                                               uint64_t capacity,
+                                               uint64_t *length,
+                                               struct HolefillError *error);
 
 #ifdef __cplusplus
 }  // extern "C"

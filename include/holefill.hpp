@@ -429,10 +429,24 @@ struct Attempt {
     std::string reason;
 };
 
-/* What happened to one hole: the fields of HolefillHole, and the texts. */
+/* A candidate surface and the distance at which it missed the rings round the hole, in units of the mean rim edge. */
+struct Score {
+    std::string candidate;
+    double distance = 0.0;
+};
+
+/* How the missing surface was predicted: the fields of HolefillPrediction, the lists and the text. */
+struct Prediction : HolefillPrediction {
+    std::vector<Score> scores;
+    std::vector<std::string> crease_surfaces;
+    std::string without_creases;
+};
+
+/* What happened to one hole: the fields of HolefillHole, the texts, and the prediction if a method made one. */
 struct Hole : HolefillHole {
     std::string reason;
     std::vector<Attempt> tried;
+    std::optional<Prediction> prediction;
 };
 
 /* What happened to all holes of a call. */
@@ -449,7 +463,7 @@ public:
     /* Entry `index`, in the order of the loops' ids. */
     Result<Hole> hole(uint64_t index) const {
         detail::ErrorObject error;
-        Hole hole{HOLEFILL_HOLE_INIT, {}, {}};
+        Hole hole{HOLEFILL_HOLE_INIT, {}, {}, {}};
         const HolefillStatus status = read_hole(index, hole, error);
         return detail::result(status, error, std::move(hole));
     }
@@ -459,7 +473,7 @@ public:
         HolefillStatus status = holefill_report_summary(handle_.get(), &summary, error.get());
         std::vector<Hole> holes;
         for (uint64_t i = 0; status == HOLEFILL_STATUS_OK && i < summary.hole_count; ++i) {
-            holes.push_back(Hole{HOLEFILL_HOLE_INIT, {}, {}});
+            holes.push_back(Hole{HOLEFILL_HOLE_INIT, {}, {}, {}});
             status = read_hole(i, holes.back(), error);
         }
         return detail::result(status, error, std::move(holes));
@@ -485,6 +499,31 @@ private:
             attempt.method = method ? method : "";
             hole.tried.push_back(std::move(attempt));
         }
+        return status == HOLEFILL_STATUS_OK ? read_prediction(index, hole, error) : status;
+    }
+    HolefillStatus read_prediction(uint64_t index, Hole& hole, detail::ErrorObject& error) const {
+        Prediction found{HOLEFILL_PREDICTION_INIT, {}, {}, {}};
+        /* Most methods predict nothing, which is no error. */
+        HolefillStatus status = holefill_report_prediction(handle_.get(), index, &found, error.get());
+        if (status == HOLEFILL_STATUS_NOT_FOUND) {
+            return HOLEFILL_STATUS_OK;
+        }
+        const char* candidate = nullptr;
+        for (uint64_t k = 0; status == HOLEFILL_STATUS_OK && k < found.score_count; ++k) {
+            double distance = 0.0;
+            status = holefill_report_score(handle_.get(), index, k, &candidate, &distance, error.get());
+            found.scores.push_back({candidate ? candidate : "", distance});
+        }
+        for (uint64_t k = 0; status == HOLEFILL_STATUS_OK && k < found.crease_surface_count; ++k) {
+            status = holefill_report_crease_surface(handle_.get(), index, k, &candidate, error.get());
+            found.crease_surfaces.push_back(candidate ? candidate : "");
+        }
+        if (status == HOLEFILL_STATUS_OK) {
+            status = detail::read_text(found.without_creases, [&](char* buffer, uint64_t capacity, uint64_t* length) {
+                return holefill_report_without_creases(handle_.get(), index, buffer, capacity, length, error.get());
+            });
+        }
+        hole.prediction = std::move(found);
         return status;
     }
 

@@ -7,7 +7,7 @@ use std::mem::offset_of;
 use std::path::{Path, PathBuf};
 
 /// The parts of the interface, in the order in which the header has them.
-const PARTS: [&str; 12] = [
+const PARTS: [&str; 13] = [
     "version",
     "status",
     "types",
@@ -20,6 +20,7 @@ const PARTS: [&str; 12] = [
     "fill",
     "plan",
     "report",
+    "prediction",
 ];
 
 fn root() -> &'static Path {
@@ -162,6 +163,9 @@ fn layout() -> String {
         HolefillHole {
             struct_size, version, loop_id, edge_count, edge, perimeter, loop_class, status, cause, tried_count, method,
             first_vertex, vertex_count, first_triangle, triangle_count, self_intersections, min_angle, seconds
+        }
+        HolefillPrediction {
+            struct_size, version, chosen, noise, score_count, crease_count, crease_surface_count, is_tip, is_flat
         }
         HolefillSummary {
             struct_size, version, hole_count, filled, kept, failed, cancelled, new_vertices, new_triangles,

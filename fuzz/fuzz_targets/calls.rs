@@ -291,7 +291,7 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
     let before = state(mesh);
     // SAFETY: every pointer is null, or to as much memory as is said beside it.
     let status = unsafe {
-        match bytes.byte() % 43 {
+        match bytes.byte() % 44 {
             0..4 => {
                 let (points, triangles) = grid(bytes);
                 let view = |data: *const c_void, count: usize, scalar_type| HolefillInput {
@@ -442,6 +442,18 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
                     2 => holefill_mesh_plan_edge(mesh, from, to, o, &mut new_plan, e),
                     3 => holefill_mesh_plan_loops(mesh, &room.view(bytes), o, &mut new_plan, e),
                     _ => holefill_mesh_read_loop(mesh, id, 0, &other_room.output(bytes), e),
+                }
+            }
+            42 => {
+                let (mut candidate, mut distance) = (ptr::null(), 0.0);
+                let mut prediction = std::mem::zeroed::<HolefillPrediction>();
+                prediction.struct_size = size_of::<HolefillPrediction>() as u32 + u32::from(bytes.byte() % 2);
+                prediction.version = HOLEFILL_PREDICTION_VERSION;
+                match bytes.byte() % 4 {
+                    0 => holefill_report_prediction(report, id, &mut prediction, e),
+                    1 => holefill_report_score(report, id, from, &mut candidate, &mut distance, e),
+                    2 => holefill_report_crease_surface(report, id, from, &mut candidate, e),
+                    _ => holefill_report_without_creases(report, id, text.as_mut_ptr(), capacity, &mut number, e),
                 }
             }
             _ => {

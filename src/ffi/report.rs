@@ -37,7 +37,7 @@ fn cause_number(cause: Option<ErrorKind>) -> HolefillCause {
     }
 }
 
-fn find(report: &FillReport, index: u64) -> Result<&HoleReport, Failure> {
+pub(super) fn find(report: &FillReport, index: u64) -> Result<&HoleReport, Failure> {
     usize::try_from(index)
         .ok()
         .and_then(|i| report.holes.get(i))

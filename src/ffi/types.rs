@@ -472,6 +472,34 @@ pub struct HolefillHole {
     pub seconds: f64,
 }
 
+/// The version of `HolefillPrediction`.
+pub const HOLEFILL_PREDICTION_VERSION: u32 = 1;
+/// How the missing surface of a hole was predicted.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct HolefillPrediction {
+    /// `sizeof(HolefillPrediction)`
+    pub struct_size: u32,
+    /// `HOLEFILL_PREDICTION_VERSION`
+    pub version: u32,
+    /// The name of the surface that was chosen among the candidates; not used where there are creases. Static text,
+    /// never freed.
+    pub chosen: *const c_char,
+    /// Standard deviation of the vertices round the hole from smooth surfaces, in units of the mean rim edge.
+    pub noise: f64,
+    /// Candidates that were compared: see `holefill_report_score`.
+    pub score_count: u64,
+    /// Creases in the patch.
+    pub crease_count: u64,
+    /// Surfaces between the creases: see `holefill_report_crease_surface`.
+    pub crease_surface_count: u64,
+    /// 1 when the hole was taken for the missing tip of a horn, higher than half a sphere.
+    pub is_tip: u32,
+    /// 1 when the hole was taken for a gap in a flat face: then the patch lies in the plane of the rim, whatever the
+    /// scores say.
+    pub is_flat: u32,
+}
+
 /// The version of `HolefillSummary`.
 pub const HOLEFILL_SUMMARY_VERSION: u32 = 1;
 /// What happened to all holes.
@@ -524,5 +552,6 @@ versioned!(
     HolefillPointSummary = HOLEFILL_POINT_SUMMARY_VERSION,
     HolefillPatchInfo = HOLEFILL_PATCH_INFO_VERSION,
     HolefillHole = HOLEFILL_HOLE_VERSION,
+    HolefillPrediction = HOLEFILL_PREDICTION_VERSION,
     HolefillSummary = HOLEFILL_SUMMARY_VERSION,
 );

@@ -366,6 +366,67 @@ fn methods_that_were_tried_are_listed_with_reasons() {
 }
 
 #[test]
+fn a_report_says_how_the_surface_was_predicted() {
+    let smooth = mesh_of(&fixtures::sphere(14).cut(|c| c[2] > 0.75));
+    let mut reports = [HolefillReport::default(); 2];
+    for (report, method) in reports.iter_mut().zip([c"fair-c1", c"auto"]) {
+        // SAFETY: all pointers are null or to living values.
+        unsafe {
+            let options = with_method(method);
+            let status = holefill_mesh_fill_loop(smooth.0, 0, &options, report, nothing());
+            assert_eq!(status, HOLEFILL_STATUS_OK);
+            holefill_mesh_undo(smooth.0, nothing());
+        }
+    }
+    let [without, sphere] = reports;
+    let creased = report_of_creased();
+    let mut found = memory::blank::<HolefillPrediction>();
+    let (mut candidate, mut distance) = (ptr::null(), 0.0);
+    // SAFETY: all pointers are null or to living values.
+    unsafe {
+        let status = holefill_report_prediction(without, 0, &mut found, nothing());
+        assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
+
+        let status = holefill_report_prediction(sphere, 0, &mut found, nothing());
+        assert_eq!(status, HOLEFILL_STATUS_OK);
+        assert_eq!(static_text(found.chosen), Some("sphere"));
+        assert_eq!((found.is_tip, found.is_flat, found.crease_count), (0, 0, 0));
+        let mut scored = Vec::new();
+        for k in 0..found.score_count {
+            let status =
+                holefill_report_score(sphere, 0, k, &mut candidate, &mut distance, nothing());
+            assert_eq!(status, HOLEFILL_STATUS_OK);
+            scored.push((static_text(candidate).unwrap(), distance));
+        }
+        assert!(scored.len() > 1);
+        let of_chosen = scored.iter().find(|(name, _)| *name == "sphere").unwrap().1;
+        assert!((0.0..1e-3).contains(&of_chosen), "{scored:?}");
+        let k = found.score_count;
+        let status = holefill_report_score(sphere, 0, k, &mut candidate, &mut distance, nothing());
+        assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
+
+        let status = holefill_report_prediction(creased, 0, &mut found, nothing());
+        assert_eq!(status, HOLEFILL_STATUS_OK);
+        assert_eq!((found.crease_count, found.crease_surface_count), (1, 2));
+        for k in 0..2 {
+            let status = holefill_report_crease_surface(creased, 0, k, &mut candidate, nothing());
+            assert_eq!(status, HOLEFILL_STATUS_OK);
+            assert_eq!(static_text(candidate), Some("plane"));
+        }
+        let status = holefill_report_crease_surface(creased, 0, 2, &mut candidate, nothing());
+        assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
+    }
+    // SAFETY: `text` gives room as it says.
+    let reason = text(&|buffer, capacity, length| unsafe {
+        holefill_report_without_creases(creased, 0, buffer, capacity, length, nothing())
+    });
+    assert_eq!(reason, "");
+    for report in [without, sphere, creased] {
+        holefill_report_free(report);
+    }
+}
+
+#[test]
 fn every_method_and_every_parameter_can_be_reached_by_name() {
     let names: Vec<&str> = (0..holefill_method_count())
         .map(|i| static_text(holefill_method_name(i)).unwrap())

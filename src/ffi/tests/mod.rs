@@ -69,6 +69,18 @@ fn holed_mesh() -> Owned {
     mesh_of(&holed())
 }
 
+/// What `auto` says of a hole over an edge of a cube.
+fn report_of_creased() -> HolefillReport {
+    let whole = fixtures::cube(12);
+    let mesh = mesh_of(&whole.cut(|[x, y, z]| (x - 1.0).hypot(y - 1.0).hypot(z) < 0.5));
+    let options = with_method(c"auto");
+    let mut report = HolefillReport::default();
+    // SAFETY: all pointers are null or to living values.
+    let status = unsafe { holefill_mesh_fill_loop(mesh.0, 0, &options, &mut report, nothing()) };
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    report
+}
+
 fn info(mesh: HolefillMesh) -> HolefillMeshInfo {
     let mut info = memory::blank::<HolefillMeshInfo>();
     // SAFETY: the pointer is to a living value.

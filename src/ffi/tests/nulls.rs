@@ -40,6 +40,7 @@ struct World {
     mesh: Owned,
     plan: HolefillPlan,
     report: HolefillReport,
+    predicted: HolefillReport,
     parameters: HolefillParameters,
     error: HolefillError,
     arrays: Arrays,
@@ -74,6 +75,8 @@ struct Outputs {
     patch_info: HolefillPatchInfo,
     hole: HolefillHole,
     summary: HolefillSummary,
+    prediction: HolefillPrediction,
+    distance: f64,
 }
 
 impl World {
@@ -116,6 +119,8 @@ impl World {
             patch_info: memory::blank(),
             hole: memory::blank(),
             summary: memory::blank(),
+            prediction: memory::blank(),
+            distance: 77.0,
         };
         Self {
             plan: plan_loop(mesh.0, 0, &options()),
@@ -124,6 +129,7 @@ impl World {
             numbers: [77.0; 3],
             mesh,
             report,
+            predicted: report_of_creased(),
             parameters,
             error,
             arrays,
@@ -170,6 +176,7 @@ impl Drop for World {
         holefill_plan_free(self.plan);
         holefill_report_free(self.out.report);
         holefill_report_free(self.report);
+        holefill_report_free(self.predicted);
         holefill_parameters_free(self.out.parameters);
         holefill_parameters_free(self.parameters);
         holefill_error_free(self.error);
@@ -321,6 +328,14 @@ fn null_for_every_pointer_of_every_function() {
         with_nulls!(w: holefill_report_tried, (w.report), (0), (0), ["method", &raw mut w.out.method, NULL],
             ["buffer", w.out.text.as_mut_ptr(), NULL], (256), ["length", &raw mut w.out.number, NULL],
             ["error", &raw mut w.error, OK]),
+        with_nulls!(w: holefill_report_prediction, (w.predicted), (0),
+            ["prediction", &raw mut w.out.prediction, NULL], ["error", &raw mut w.error, OK]),
+        with_nulls!(w: holefill_report_score, (w.predicted), (0), (0), ["candidate", &raw mut w.out.method, NULL],
+            ["distance", &raw mut w.out.distance, NULL], ["error", &raw mut w.error, OK]),
+        with_nulls!(w: holefill_report_crease_surface, (w.predicted), (0), (0),
+            ["candidate", &raw mut w.out.method, NULL], ["error", &raw mut w.error, OK]),
+        with_nulls!(w: holefill_report_without_creases, (w.predicted), (0), ["buffer", w.out.text.as_mut_ptr(), NULL],
+            (256), ["length", &raw mut w.out.number, NULL], ["error", &raw mut w.error, OK]),
     ];
     // The fills, and the plans: alike but for what they hand out.
     macro_rules! fills_and_plans {

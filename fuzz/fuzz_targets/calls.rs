@@ -200,6 +200,13 @@ impl Room {
     }
 }
 
+/// A struct as a newer header may have it, with a field that the library does not know.
+#[repr(C)]
+struct Longer<T> {
+    known: T,
+    beyond: u64,
+}
+
 fn options(bytes: &mut Bytes<'_>, world: &World, left: *mut i64, method: &CString) -> HolefillFillOptions {
     HolefillFillOptions {
         struct_size: size_of::<HolefillFillOptions>() as u32 + u32::from(bytes.byte() == 77),
@@ -250,8 +257,12 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
         }
     };
     let method = CString::new(method).unwrap_or_default();
-    let options = options(bytes, world, &raw mut left, &method);
-    let o = if bytes.byte() == 255 { ptr::null() } else { &raw const options };
+    let options = Longer {
+        known: options(bytes, world, &raw mut left, &method),
+        beyond: u64::from(bytes.byte() == 79),
+    };
+    let o: *const HolefillFillOptions =
+        if bytes.byte() == 255 { ptr::null() } else { (&raw const options).cast() };
     let (mut new_mesh, mut new_plan, mut new_report, mut new_parameters) =
         <(HolefillMesh, HolefillPlan, HolefillReport, HolefillParameters)>::default();
     let (mut number, mut ids, mut text) = (0_u64, [0_u64; 16], [0 as c_char; 64]);
@@ -429,8 +440,8 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
                     neighbours: if bytes.byte() < 100 { 0 } else { bytes.number() as u32 },
                     threads: u32::from(bytes.byte() % 3),
                     time_budget: if bytes.byte() < 200 { 0.0 } else { bytes.coordinate() },
-                    progress: options.progress,
-                    progress_data: options.progress_data,
+                    progress: options.known.progress,
+                    progress_data: options.known.progress_data,
                 };
                 holefill_mesh_from_points(&p, n, c, &point_options, &mut new_mesh, ptr::null_mut(), e)
             }
@@ -446,11 +457,15 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
             }
             42 => {
                 let (mut candidate, mut distance) = (ptr::null(), 0.0);
-                let mut prediction = std::mem::zeroed::<HolefillPrediction>();
-                prediction.struct_size = size_of::<HolefillPrediction>() as u32 + u32::from(bytes.byte() % 2);
-                prediction.version = HOLEFILL_PREDICTION_VERSION;
+                let mut prediction = Longer {
+                    known: std::mem::zeroed::<HolefillPrediction>(),
+                    beyond: u64::from(bytes.byte() == 79),
+                };
+                prediction.known.struct_size = size_of::<HolefillPrediction>() as u32 + u32::from(bytes.byte() % 2);
+                prediction.known.version = HOLEFILL_PREDICTION_VERSION;
+                let place: *mut HolefillPrediction = (&raw mut prediction).cast();
                 match bytes.byte() % 4 {
-                    0 => holefill_report_prediction(report, id, &mut prediction, e),
+                    0 => holefill_report_prediction(report, id, place, e),
                     1 => holefill_report_score(report, id, from, &mut candidate, &mut distance, e),
                     2 => holefill_report_crease_surface(report, id, from, &mut candidate, e),
                     _ => holefill_report_without_creases(report, id, text.as_mut_ptr(), capacity, &mut number, e),

@@ -8,7 +8,8 @@
 //! those that all three corners chose, then those of two, then those of one, small circles first.
 //!
 //! Where stars disagree this leaves small polygons. They are closed by growing from their edges, smallest
-//! circle first, as long as triangles stay within the limit.
+//! circle first, as long as triangles stay within the limit; those of few edges also where the triangles do not
+//! fit in the tangent planes. What is open then is a hole, and triangles at its rim must be smaller.
 //!
 //! Complexity: O(n k) for n points with k neighbours, O(n log n) to sort.
 
@@ -84,14 +85,12 @@ impl Assembler<'_> {
             }
         }
         self.close_gaps(&mut surface, &limits)?;
+        // Before the rims are taken back, so that this starts at holes and not at what stars disagree on.
+        self.close_small_holes(&mut surface, &limits);
         if self.radius.is_none() {
             surface.peel(|t| self.radius(t) - RIM_SHARE * largest_limit(&limits, t));
+            self.close_small_holes(&mut surface, &limits);
         }
-        surface.separate_fans();
-        let normal = |v: u32| self.tangents[v as usize].as_ref().map(|t| t.normal);
-        gaps::close_small_holes(&mut surface, &self.cloud.points, normal, |t| {
-            largest_limit(&limits, t)
-        });
         Ok(Assembled {
             triangles: surface.triangles(),
             limits,
@@ -212,6 +211,15 @@ impl Assembler<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Leaves every point one fan, and closes the holes of few edges within the limit.
+    fn close_small_holes(&self, surface: &mut Surface, limits: &[f64]) {
+        surface.separate_fans();
+        let normal = |v: u32| self.tangents[v as usize].as_ref().map(|t| t.normal);
+        gaps::close_small_holes(surface, &self.cloud.points, normal, |t| {
+            largest_limit(limits, t)
+        });
     }
 
     /// Queues the triangles that fit on the open side of a -> b.

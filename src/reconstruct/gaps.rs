@@ -10,8 +10,9 @@ use super::reach::circumradius;
 use super::surface::Surface;
 use crate::math::{Vec3, cross_normal};
 
-/// Most edges of a hole that is closed. A hole of 6 edges is what one missing point leaves in a regular mesh.
-const MOST_EDGES: usize = 6;
+/// Most edges of a hole that is closed: as many as a hole as large as the limit has in a regular mesh. Loops of
+/// more edges are not worth a try.
+const MOST_EDGES: usize = 12;
 
 /// Closes the holes of few edges whose triangles have circles of at most `limit(corners)`; all of a hole or
 /// nothing. Every point must have one fan.

@@ -107,6 +107,58 @@ fn a_regular_grid_is_triangulated_without_gaps() {
     assert_eq!(loop_sizes(&mesh), [60]);
 }
 
+/// Rows of points along y at distance 1, the points of a row 0.6 apart, without the middle six of the rows
+/// `missing`. The sheet is flat up to 8.5, and then turns round a cylinder of radius `radius`; normals estimated
+/// beside the gap are up to 50° wrong.
+fn bent_sheet_without(
+    missing: std::ops::Range<u32>,
+    radius: f64,
+    is_staggered: bool,
+) -> Vec<Point> {
+    const TURN: f64 = 2.4;
+    let profile = |row: u32| {
+        let along = f64::from(row) - 8.5;
+        let angle = (along / radius).clamp(0.0, TURN);
+        let straight = along - radius * angle;
+        [
+            radius * angle.sin() + straight * angle.cos(),
+            radius * (angle.cos() - 1.0) - straight * angle.sin(),
+        ]
+    };
+    let place = |(row, k): (u32, u32)| {
+        let [x, z] = profile(row);
+        let shift = if is_staggered && row % 2 == 1 {
+            0.3
+        } else {
+            0.0
+        };
+        [x, 0.6 * f64::from(k) + shift, z]
+    };
+    let all = (0..17).flat_map(|row| (0..30).map(move |k| (row, k)));
+    all.filter(|(row, k)| !(missing.contains(row) && (12..18).contains(k)))
+        .map(place)
+        .collect()
+}
+
+#[test]
+fn a_gap_is_closed_wholly_or_not_at_all() {
+    for radius in [1.0, 1.1, 1.2] {
+        for is_staggered in [false, true] {
+            let loops = |missing| {
+                let points = bent_sheet_without(missing, radius, is_staggered);
+                let (mesh, report, _) = surface(&points);
+                assert_eq!(report.used, report.points);
+                loop_sizes(&mesh)
+            };
+            // Circles of 1.8 times the median of the surface, and of 3.5 times.
+            assert_eq!(loops(8..9), [90], "{radius}, {is_staggered}");
+            let sizes = loops(6..9);
+            assert_eq!(sizes.len(), 2, "{radius}, {is_staggered}: {sizes:?}");
+            assert!((14..=18).contains(&sizes[0]), "{sizes:?}");
+        }
+    }
+}
+
 #[test]
 fn a_cylinder_stays_open_at_both_ends() {
     let cylinder = fixtures::cylinder(24, 10);

@@ -138,7 +138,7 @@ static void check_prediction(HolefillReport report, uint64_t index) {
     const HolefillStatus status = holefill_report_prediction(report, index, &prediction, NULL);
     const char *candidate = NULL;
     char reason[256];
-    double distance = -1.0;
+    double score = -1.0;
     uint64_t k, length = 0;
     if (status == HOLEFILL_STATUS_NOT_FOUND) {
         CHECK(holefill_report_without_creases(report, index, reason, sizeof reason, &length, NULL) == status);
@@ -148,10 +148,10 @@ static void check_prediction(HolefillReport report, uint64_t index) {
     CHECK(prediction.chosen != NULL && prediction.noise >= 0.0);
     CHECK(prediction.is_tip + prediction.is_flat <= 1);
     for (k = 0; k < prediction.score_count; ++k) {
-        CHECK_OK(holefill_report_score(report, index, k, &candidate, &distance, NULL));
-        CHECK(candidate != NULL && distance >= 0.0);
+        CHECK_OK(holefill_report_score(report, index, k, &candidate, &score, NULL));
+        CHECK(candidate != NULL && score >= 0.0);
     }
-    CHECK(holefill_report_score(report, index, k, &candidate, &distance, NULL) == HOLEFILL_STATUS_NOT_FOUND);
+    CHECK(holefill_report_score(report, index, k, &candidate, &score, NULL) == HOLEFILL_STATUS_NOT_FOUND);
     for (k = 0; k < prediction.crease_surface_count; ++k) {
         CHECK_OK(holefill_report_crease_surface(report, index, k, &candidate, NULL));
         CHECK(candidate != NULL);

@@ -85,9 +85,12 @@ void everything_once() {
     CHECK(patch.first_vertex == a.positions.size() && !patch.positions.empty() && !patch.triangles.empty());
     CHECK(plan.report().hole(0).status == HOLEFILL_HOLE_FILLED);
     const holefill::Hole predicted = mesh.plan_loop(id, holefill::Options().method("auto")).report().hole(0);
-    CHECK(predicted.prediction && predicted.prediction->chosen != nullptr);
-    CHECK(predicted.prediction->scores.size() == predicted.prediction->score_count);
-    CHECK(predicted.prediction->crease_surfaces.size() == predicted.prediction->crease_surface_count);
+    CHECK(predicted.prediction && !predicted.prediction->scores.empty());
+    const std::vector<holefill::Score>& scores = predicted.prediction->scores;
+    const auto is_chosen = [&](const holefill::Score& s) { return s.candidate == predicted.prediction->chosen; };
+    const auto chosen = std::find_if(scores.begin(), scores.end(), is_chosen);
+    CHECK(chosen != scores.end() && chosen->value >= 0.0);
+    CHECK(predicted.prediction->crease_surfaces.empty() && predicted.prediction->without_creases.empty());
     CHECK(!mesh.plan_loop(id, holefill::Options().method("fair-c1")).report().hole(0).prediction);
     CHECK(mesh.positions() == a.positions);
     mesh.apply(plan);

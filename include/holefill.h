@@ -843,7 +843,8 @@ typedef struct HolefillPrediction {
      */
     uint32_t version;
     /**
-     * The name of the surface that was chosen among the candidates; not used where there are creases. Static text,
+     * The name of the surface that was used, if there are no creases: `plane`, `sphere`, `cylinder`, `cone`, `torus`,
+     * `quadric`, `cyclide`, `rbf3`, `rbf3-smoothed`, `rbf3-ridge`, `rbf5`; later versions may have more. Static text,
      * never freed.
      */
     const char *chosen;
@@ -852,7 +853,8 @@ typedef struct HolefillPrediction {
      */
     double noise;
     /**
-     * Candidates that were compared: see `holefill_report_score`.
+     * Candidates that were compared: see `holefill_report_score`. 0 when none were, as by `curvature` or with
+     * `auto.candidate`.
      */
     uint64_t score_count;
     /**
@@ -1822,10 +1824,10 @@ HolefillStatus holefill_report_tried(struct HolefillReport report,
 HOLEFILL_API HolefillStatus holefill_report_free(struct HolefillReport report);
 
 /**
- * How the missing surface was predicted for the hole of entry `index`, where a method does so (`auto`, `curvature`).
- * Whether the prediction stands is said by the hole's `method`.
+ * How the missing surface was predicted for the filled hole of entry `index`. The methods `auto` and `curvature` predict
+ * one; whether it stands is said by the hole's `method`. An island has none: it belongs to the hole that it lies in.
  *
- * Statuses: `NOT_FOUND`, also when nothing was predicted.
+ * Statuses: `NOT_FOUND`, also when the entry has no prediction.
  */
 HOLEFILL_API
 HolefillStatus holefill_report_prediction(struct HolefillReport report,
@@ -1834,30 +1836,30 @@ HolefillStatus holefill_report_prediction(struct HolefillReport report,
                                           struct HolefillError *error);
 
 /**
- * The `score`-th candidate surface that was compared for the hole of entry `index`: its name as static text that is
- * never freed, and in units of the mean rim edge the root mean square distance at which it missed the rings round the
- * hole when it was fitted without them.
+ * The `place`-th candidate surface that was compared for the hole of entry `index`: its name as static text that is
+ * never freed, and its score, which is about the distance in mean rim edges at which the candidate misses rings round
+ * the hole that it has not seen. The smallest is best; `docs/methods/auto.md` says what enters it.
  *
- * Statuses: `NOT_FOUND`.
+ * Statuses: `NOT_FOUND`, also when the entry has no prediction.
  */
 HOLEFILL_API
 HolefillStatus holefill_report_score(struct HolefillReport report,
                                      uint64_t index,
-                                     uint64_t score,
+                                     uint64_t place,
                                      const char **candidate,
-                                     double *distance,
+                                     double *score,
                                      struct HolefillError *error);
 
 /**
- * The `surface`-th surface between the creases in the patch for the hole of entry `index`, in the order in which the rim
+ * The `place`-th surface between the creases in the patch for the hole of entry `index`, in the order in which the rim
  * meets them: its name as static text that is never freed.
  *
- * Statuses: `NOT_FOUND`.
+ * Statuses: `NOT_FOUND`, also when the entry has no prediction.
  */
 HOLEFILL_API
 HolefillStatus holefill_report_crease_surface(struct HolefillReport report,
                                               uint64_t index,
-                                              uint64_t surface,
+                                              uint64_t place,
                                               const char **candidate,
                                               struct HolefillError *error);
 
@@ -1865,7 +1867,7 @@ HolefillStatus holefill_report_crease_surface(struct HolefillReport report,
  * Why creases that run into the hole of entry `index` were not continued; empty when they were, or when there are none.
  * `buffer`, `capacity` and `length` as in `holefill_error_message`.
  *
- * Statuses: `NOT_FOUND`, also when nothing was predicted.
+ * Statuses: `NOT_FOUND`, also when the entry has no prediction.
  */
 HOLEFILL_API
 HolefillStatus holefill_report_without_creases(struct HolefillReport report,

@@ -429,10 +429,10 @@ struct Attempt {
     std::string reason;
 };
 
-/* A candidate surface and the distance at which it missed the rings round the hole, in units of the mean rim edge. */
+/* A candidate surface and its score; see holefill_report_score. */
 struct Score {
     std::string candidate;
-    double distance = 0.0;
+    double value = 0.0;
 };
 
 /* How the missing surface was predicted: the fields of HolefillPrediction, the lists and the text. */
@@ -510,13 +510,17 @@ private:
         }
         const char* candidate = nullptr;
         for (uint64_t k = 0; status == HOLEFILL_STATUS_OK && k < found.score_count; ++k) {
-            double distance = 0.0;
-            status = holefill_report_score(handle_.get(), index, k, &candidate, &distance, error.get());
-            found.scores.push_back({candidate ? candidate : "", distance});
+            double score = 0.0;
+            status = holefill_report_score(handle_.get(), index, k, &candidate, &score, error.get());
+            if (status == HOLEFILL_STATUS_OK) {
+                found.scores.push_back({candidate, score});
+            }
         }
         for (uint64_t k = 0; status == HOLEFILL_STATUS_OK && k < found.crease_surface_count; ++k) {
             status = holefill_report_crease_surface(handle_.get(), index, k, &candidate, error.get());
-            found.crease_surfaces.push_back(candidate ? candidate : "");
+            if (status == HOLEFILL_STATUS_OK) {
+                found.crease_surfaces.push_back(candidate);
+            }
         }
         if (status == HOLEFILL_STATUS_OK) {
             status = detail::read_text(found.without_creases, [&](char* buffer, uint64_t capacity, uint64_t* length) {

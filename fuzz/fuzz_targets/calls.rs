@@ -456,17 +456,17 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
                 }
             }
             42 => {
-                let (mut candidate, mut distance) = (ptr::null(), 0.0);
+                let (mut candidate, mut score) = (ptr::null(), 0.0);
                 let mut prediction = Longer {
                     known: std::mem::zeroed::<HolefillPrediction>(),
-                    beyond: u64::from(bytes.byte() == 79),
+                    beyond: u64::MAX,
                 };
                 prediction.known.struct_size = size_of::<HolefillPrediction>() as u32 + u32::from(bytes.byte() % 2);
                 prediction.known.version = HOLEFILL_PREDICTION_VERSION;
                 let place: *mut HolefillPrediction = (&raw mut prediction).cast();
                 match bytes.byte() % 4 {
                     0 => holefill_report_prediction(report, id, place, e),
-                    1 => holefill_report_score(report, id, from, &mut candidate, &mut distance, e),
+                    1 => holefill_report_score(report, id, from, &mut candidate, &mut score, e),
                     2 => holefill_report_crease_surface(report, id, from, &mut candidate, e),
                     _ => holefill_report_without_creases(report, id, text.as_mut_ptr(), capacity, &mut number, e),
                 }

@@ -169,7 +169,7 @@ impl<'a> Facets<'a> {
     }
 }
 
-/// The edges with two consistently oriented triangles, by their ends.
+/// The edges with two consistently oriented triangles, sorted by their ends.
 fn shared_edges(triangles: &[[u32; 3]], vertex_count: usize) -> Vec<SharedEdge> {
     let mut edges: Vec<SharedEdge> = (0_u32..)
         .zip(pair_halfedges(triangles, vertex_count))

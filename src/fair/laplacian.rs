@@ -150,7 +150,7 @@ impl Domain {
         for v in 0..count {
             starts[v + 1] += starts[v];
         }
-        // Half of each edge's weight for either direction, by column.
+        // Half of each edge's weight for either direction, by column; what is called column is the row here.
         let mut slots = starts.clone();
         let zero = Entry {
             column: 0,

@@ -3,7 +3,7 @@
 use super::guard::{Failure, guard};
 use super::memory::{blank, null, write, write_struct, write_text};
 use super::objects::with_report;
-use super::report::find;
+use super::report::{find, nth};
 use super::status::{HOLEFILL_STATUS_NOT_FOUND, HOLEFILL_STATUS_OK, HolefillStatus};
 use super::types::{HolefillError, HolefillPrediction, HolefillReport};
 use crate::fill::report::{FillReport, Prediction};
@@ -24,23 +24,15 @@ fn candidate_text(candidate: Candidate) -> *const c_char {
 
 fn find_prediction(report: &FillReport, index: u64) -> Result<&Prediction, Failure> {
     find(report, index)?.prediction.as_ref().ok_or_else(|| {
-        let message = format!("no surface was predicted for entry {index}");
+        let message = format!("entry {index} has no prediction");
         Failure::new(HOLEFILL_STATUS_NOT_FOUND, message)
     })
 }
 
-fn place<'a, T>(list: &'a [T], place: u64, what: &str) -> Result<&'a T, Failure> {
-    let found = usize::try_from(place).ok().and_then(|i| list.get(i));
-    found.ok_or_else(|| {
-        let message = format!("there is no {what} {place} among {}", list.len());
-        Failure::new(HOLEFILL_STATUS_NOT_FOUND, message)
-    })
-}
-
-/// How the missing surface was predicted for the hole of entry `index`, where a method does so (`auto`, `curvature`).
-/// Whether the prediction stands is said by the hole's `method`.
+/// How the missing surface was predicted for the filled hole of entry `index`. The methods `auto` and `curvature` predict
+/// one; whether it stands is said by the hole's `method`. An island has none: it belongs to the hole that it lies in.
 ///
-/// Statuses: `NOT_FOUND`, also when nothing was predicted.
+/// Statuses: `NOT_FOUND`, also when the entry has no prediction.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn holefill_report_prediction(
     report: HolefillReport,
@@ -68,29 +60,29 @@ pub unsafe extern "C" fn holefill_report_prediction(
     })
 }
 
-/// The `score`-th candidate surface that was compared for the hole of entry `index`: its name as static text that is
-/// never freed, and in units of the mean rim edge the root mean square distance at which it missed the rings round the
-/// hole when it was fitted without them.
+/// The `place`-th candidate surface that was compared for the hole of entry `index`: its name as static text that is
+/// never freed, and its score, which is about the distance in mean rim edges at which the candidate misses rings round
+/// the hole that it has not seen. The smallest is best; `docs/methods/auto.md` says what enters it.
 ///
-/// Statuses: `NOT_FOUND`.
+/// Statuses: `NOT_FOUND`, also when the entry has no prediction.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn holefill_report_score(
     report: HolefillReport,
     index: u64,
-    score: u64,
+    place: u64,
     candidate: *mut *const c_char,
-    distance: *mut f64,
+    score: *mut f64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
     guard(error, || {
         with_report(report.id, |report| {
             let scores = &find_prediction(report, index)?.scores;
-            let &(scored, value) = place(scores, score, "score")?;
+            let &(scored, value) = nth(scores, place, "score")?;
             if candidate.is_null() {
                 return Err(null("candidate"));
             }
             // SAFETY: the caller's promise.
-            unsafe { write(distance, value, "distance")? };
+            unsafe { write(score, value, "score")? };
             // SAFETY: not null, and the caller's promise.
             unsafe { write(candidate, candidate_text(scored), "candidate")? };
             Ok(HOLEFILL_STATUS_OK)
@@ -98,22 +90,22 @@ pub unsafe extern "C" fn holefill_report_score(
     })
 }
 
-/// The `surface`-th surface between the creases in the patch for the hole of entry `index`, in the order in which the rim
+/// The `place`-th surface between the creases in the patch for the hole of entry `index`, in the order in which the rim
 /// meets them: its name as static text that is never freed.
 ///
-/// Statuses: `NOT_FOUND`.
+/// Statuses: `NOT_FOUND`, also when the entry has no prediction.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn holefill_report_crease_surface(
     report: HolefillReport,
     index: u64,
-    surface: u64,
+    place: u64,
     candidate: *mut *const c_char,
     error: *mut HolefillError,
 ) -> HolefillStatus {
     guard(error, || {
         with_report(report.id, |report| {
             let surfaces = &find_prediction(report, index)?.crease_surfaces;
-            let &found = place(surfaces, surface, "surface")?;
+            let &found = nth(surfaces, place, "surface")?;
             // SAFETY: the caller's promise.
             unsafe { write(candidate, candidate_text(found), "candidate")? };
             Ok(HOLEFILL_STATUS_OK)
@@ -124,7 +116,7 @@ pub unsafe extern "C" fn holefill_report_crease_surface(
 /// Why creases that run into the hole of entry `index` were not continued; empty when they were, or when there are none.
 /// `buffer`, `capacity` and `length` as in `holefill_error_message`.
 ///
-/// Statuses: `NOT_FOUND`, also when nothing was predicted.
+/// Statuses: `NOT_FOUND`, also when the entry has no prediction.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn holefill_report_without_creases(
     report: HolefillReport,

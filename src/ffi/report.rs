@@ -37,14 +37,18 @@ fn cause_number(cause: Option<ErrorKind>) -> HolefillCause {
     }
 }
 
+/// Element `index` of a list of things that are called `what`.
+pub(super) fn nth<'a, T>(list: &'a [T], index: u64, what: &str) -> Result<&'a T, Failure> {
+    let found = usize::try_from(index).ok().and_then(|i| list.get(i));
+    found.ok_or_else(|| {
+        let message = format!("there is no {what} {index} among {}", list.len());
+        Failure::new(HOLEFILL_STATUS_NOT_FOUND, message)
+    })
+}
+
+/// Entry `index` of the report.
 pub(super) fn find(report: &FillReport, index: u64) -> Result<&HoleReport, Failure> {
-    usize::try_from(index)
-        .ok()
-        .and_then(|i| report.holes.get(i))
-        .ok_or_else(|| {
-            let message = format!("there is no entry {index} among {}", report.holes.len());
-            Failure::new(HOLEFILL_STATUS_NOT_FOUND, message)
-        })
+    nth(&report.holes, index, "entry")
 }
 
 /// What happened to all holes.

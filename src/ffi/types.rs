@@ -482,12 +482,14 @@ pub struct HolefillPrediction {
     pub struct_size: u32,
     /// `HOLEFILL_PREDICTION_VERSION`
     pub version: u32,
-    /// The name of the surface that was chosen among the candidates; not used where there are creases. Static text,
+    /// The name of the surface that was used, if there are no creases: `plane`, `sphere`, `cylinder`, `cone`, `torus`,
+    /// `quadric`, `cyclide`, `rbf3`, `rbf3-smoothed`, `rbf3-ridge`, `rbf5`; later versions may have more. Static text,
     /// never freed.
     pub chosen: *const c_char,
     /// Standard deviation of the vertices round the hole from smooth surfaces, in units of the mean rim edge.
     pub noise: f64,
-    /// Candidates that were compared: see `holefill_report_score`.
+    /// Candidates that were compared: see `holefill_report_score`. 0 when none were, as by `curvature` or with
+    /// `auto.candidate`.
     pub score_count: u64,
     /// Creases in the patch.
     pub crease_count: u64,

@@ -47,8 +47,9 @@ pub struct Attempt {
 pub struct Prediction {
     /// The candidate that was chosen.
     pub chosen: Candidate,
-    /// Root mean square distance, in rim edge lengths, at which each candidate missed the rings round the hole when
-    /// it was fitted without them; see `docs/methods/auto.md`. Empty when nothing was compared.
+    /// The score of each candidate that was compared, which is about the distance in mean rim edges at which it misses
+    /// rings round the hole that it has not seen; the smallest is best. See `docs/methods/auto.md` for what enters it.
+    /// Empty when nothing was compared.
     pub scores: Vec<(Candidate, f64)>,
     /// Standard deviation of the surroundings' vertices from smooth surfaces, in rim edge lengths.
     pub noise: f64,

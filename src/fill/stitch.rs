@@ -115,21 +115,21 @@ impl<'a> Stitcher<'a> {
                 (!methods.is_empty()).then(|| self.replan(hole, &plan, &error, &methods));
             match replanned {
                 None => {}
-                Some(Ok((other, count)))
+                Some(Ok((other, of_other, count)))
                     if !is_usable
                         || count + other.self_intersections
                             < with_patches + plan.self_intersections =>
                 {
                     with_patches = count;
                     self.replanned.push((index, plan_box(self.mesh, &other)));
-                    triangles = other.triangles(vertices);
+                    triangles = of_other;
                     plan = other;
                 }
                 Some(Err(failure)) if !is_usable => {
                     return Outcome::failed(failure.error, failure.tried);
                 }
                 // The plan stands, and the report says what else was tried.
-                Some(Ok((other, count))) => {
+                Some(Ok((other, _, count))) => {
                     plan.tried = other.tried;
                     plan.tried.remove(without_conflict);
                     plan.tried.push(Attempt {
@@ -167,14 +167,15 @@ impl<'a> Stitcher<'a> {
             .collect()
     }
 
-    /// Plans the hole anew on the mesh as it is, by one of `methods`.
+    /// Plans the hole anew on the mesh as it is, by one of `methods`. Returns the triangles of the plan besides, and how
+    /// many pairs intersect with patches stitched so far.
     fn replan(
         &self,
         hole: &HoleLoops<'_>,
         plan: &Plan,
         error: &Error,
         methods: &[Method],
-    ) -> Result<(Plan, usize), Failure> {
+    ) -> Result<(Plan, Vec<[u32; 3]>, usize), Failure> {
         let planner = Planner {
             mesh: self.mesh,
             index: self.index,
@@ -204,7 +205,7 @@ impl<'a> Stitcher<'a> {
             }),
             None => {
                 let count = self.intersections_with_patches(&other, &triangles);
-                Ok((other, count))
+                Ok((other, triangles, count))
             }
         }
     }

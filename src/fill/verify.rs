@@ -111,9 +111,10 @@ pub(crate) fn check_patch(
             }
         };
         if !is_right {
-            return Err(Error::topology(
-                "an edge of the patch would be open, have more than two new triangles, or join two vertices twice",
-            ));
+            return Err(Error::topology(format!(
+                "the edge between vertices {a} and {b} of the patch would be open, run the wrong way, have more than \
+                 two new triangles, or join two vertices twice"
+            )));
         }
         rim_edges_met += usize::from(*twin == BOUNDARY);
         edge_count += 1;

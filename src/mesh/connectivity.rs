@@ -171,6 +171,7 @@ impl Connectivity {
     /// edge with any other triangle; the pipeline verifies that before it appends.
     pub(crate) fn append(&mut self, triangles: &[[u32; 3]], first_face: usize, twins: &[u32]) {
         let halfedges = 3 * first_face as u32..3 * triangles.len() as u32;
+        debug_assert_eq!(halfedges.len(), twins.len());
         let ends = |h: u32| (origin(triangles, h), target(triangles, h));
         self.twin.resize(3 * triangles.len(), BOUNDARY);
         let first_halfedge = halfedges.start;

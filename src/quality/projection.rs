@@ -47,6 +47,7 @@ pub(super) fn covers_nothing_twice(
 
 /// The positions along the open edges of the triangles, if these make up one closed polygon.
 fn outline(triangles: &[[u32; 3]], twins: &[u32], corners: &[[Vec3; 3]]) -> Option<Vec<Vec3>> {
+    debug_assert_eq!(twins.len(), 3 * triangles.len());
     let start = |h: u32| origin(triangles, h);
     let end = |h: u32| target(triangles, h);
     let mut open: Vec<(u32, u32)> = Vec::new();

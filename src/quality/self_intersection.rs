@@ -46,7 +46,7 @@ pub(crate) struct AppendedPatch<'a> {
     /// Triangles of mesh vertices and new vertices.
     pub(crate) triangles: &'a [[u32; 3]],
     /// For each halfedge of the triangles the other one of its edge, from
-    /// [`pair_halfedges`](crate::mesh::pairing::pair_halfedges).
+    /// [`pair_halfedges`](crate::mesh::pairing::pair_halfedges), in whatever numbering of the vertices.
     pub(crate) twins: &'a [u32],
 }
 

@@ -92,14 +92,14 @@ impl Connectivity {
             rim_start: vec![0; rim_count + 1],
             origins: triangles.into_flattened(),
         };
-        mesh.pair_halfedges()?;
+        mesh.find_opposites()?;
         mesh.list_rim_edges()?;
         mesh.find_starts()?;
         Ok(mesh)
     }
 
     /// Finds the two half-edges of every edge.
-    fn pair_halfedges(&mut self) -> Result<()> {
+    fn find_opposites(&mut self) -> Result<()> {
         self.opposite = pair_halfedges(self.triangles(), self.start.len());
         for (h, &opposite) in (0_u32..).zip(&self.opposite) {
             let is_paired = match opposite {

@@ -23,6 +23,7 @@ const RULES: &[(&str, &[&str])] = &[
     // Who is whose neighbour: no coordinates.
     ("mesh::connectivity", &CONNECTIVITY),
     ("mesh::linking", &CONNECTIVITY),
+    ("mesh::pairing", &CONNECTIVITY),
     ("mesh::rim_table", &CONNECTIVITY),
     ("mesh::survey", &CONNECTIVITY),
     ("mesh::defects", &["error"]),
@@ -68,6 +69,7 @@ const RULES: &[(&str, &[&str])] = &[
             "boundary",
             "quality",
             "patch",
+            "predict",
             "fill",
             "reconstruct",
         ],
@@ -75,11 +77,12 @@ const RULES: &[(&str, &[&str])] = &[
 ];
 
 /// What connectivity consists of.
-const CONNECTIVITY: [&str; 6] = [
+const CONNECTIVITY: [&str; 7] = [
     "error",
     "mesh::connectivity",
     "mesh::defects",
     "mesh::linking",
+    "mesh::pairing",
     "mesh::rim_table",
     "mesh::survey",
 ];
@@ -169,7 +172,7 @@ struct SourceFile {
 }
 
 /// Folders that programs make and version control ignores.
-const BUILT: [&str; 3] = ["build", "inputs", "out"];
+const BUILT: [&str; 3] = ["compare/build", "compare/inputs", "compare/out"];
 
 /// All files under the repository's folder `folder` whose names end in one of `extensions`, in order.
 fn files(folder: &str, extensions: &[&str]) -> Vec<SourceFile> {

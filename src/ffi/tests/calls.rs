@@ -365,65 +365,123 @@ fn methods_that_were_tried_are_listed_with_reasons() {
     holefill_parameters_free(parameters);
 }
 
-#[test]
-fn a_report_says_how_the_surface_was_predicted() {
-    let smooth = mesh_of(&fixtures::sphere(14).cut(|c| c[2] > 0.75));
-    let mut reports = [HolefillReport::default(); 2];
-    for (report, method) in reports.iter_mut().zip([c"fair-c1", c"auto"]) {
-        // SAFETY: all pointers are null or to living values.
-        unsafe {
-            let options = with_method(method);
-            let status = holefill_mesh_fill_loop(smooth.0, 0, &options, report, nothing());
-            assert_eq!(status, HOLEFILL_STATUS_OK);
-            holefill_mesh_undo(smooth.0, nothing());
-        }
-    }
-    let [without, sphere] = reports;
-    let creased = report_of_creased();
+/// The prediction of entry `index` as C reads it, in the terms of Rust.
+fn prediction(report: HolefillReport, index: u64) -> Option<crate::Prediction> {
+    let candidate_of = |name: *const c_char| {
+        let name = static_text(name).unwrap();
+        let found = crate::Candidate::ALL.into_iter().find(|c| c.name() == name);
+        found.unwrap()
+    };
     let mut found = memory::blank::<HolefillPrediction>();
-    let (mut candidate, mut distance) = (ptr::null(), 0.0);
+    let (mut name, mut score) = (ptr::null(), 0.0);
     // SAFETY: all pointers are null or to living values.
     unsafe {
-        let status = holefill_report_prediction(without, 0, &mut found, nothing());
-        assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
-
-        let status = holefill_report_prediction(sphere, 0, &mut found, nothing());
-        assert_eq!(status, HOLEFILL_STATUS_OK);
-        assert_eq!(static_text(found.chosen), Some("sphere"));
-        assert_eq!((found.is_tip, found.is_flat, found.crease_count), (0, 0, 0));
-        let mut scored = Vec::new();
-        for k in 0..found.score_count {
-            let status =
-                holefill_report_score(sphere, 0, k, &mut candidate, &mut distance, nothing());
-            assert_eq!(status, HOLEFILL_STATUS_OK);
-            scored.push((static_text(candidate).unwrap(), distance));
+        let status = holefill_report_prediction(report, index, &mut found, nothing());
+        if status == HOLEFILL_STATUS_NOT_FOUND {
+            return None;
         }
-        assert!(scored.len() > 1);
-        let of_chosen = scored.iter().find(|(name, _)| *name == "sphere").unwrap().1;
-        assert!((0.0..1e-3).contains(&of_chosen), "{scored:?}");
-        let k = found.score_count;
-        let status = holefill_report_score(sphere, 0, k, &mut candidate, &mut distance, nothing());
-        assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
-
-        let status = holefill_report_prediction(creased, 0, &mut found, nothing());
         assert_eq!(status, HOLEFILL_STATUS_OK);
-        assert_eq!((found.crease_count, found.crease_surface_count), (1, 2));
-        for k in 0..2 {
-            let status = holefill_report_crease_surface(creased, 0, k, &mut candidate, nothing());
-            assert_eq!(status, HOLEFILL_STATUS_OK);
-            assert_eq!(static_text(candidate), Some("plane"));
+        let mut scores = Vec::new();
+        for k in 0..=found.score_count {
+            let status = holefill_report_score(report, index, k, &mut name, &mut score, nothing());
+            if k == found.score_count {
+                assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
+            } else {
+                assert_eq!(status, HOLEFILL_STATUS_OK);
+                scores.push((candidate_of(name), score));
+            }
         }
-        let status = holefill_report_crease_surface(creased, 0, 2, &mut candidate, nothing());
-        assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
+        let mut crease_surfaces = Vec::new();
+        for k in 0..=found.crease_surface_count {
+            let status = holefill_report_crease_surface(report, index, k, &mut name, nothing());
+            if k == found.crease_surface_count {
+                assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
+            } else {
+                assert_eq!(status, HOLEFILL_STATUS_OK);
+                crease_surfaces.push(candidate_of(name));
+            }
+        }
+        let reason = text(&|buffer, capacity, length| {
+            holefill_report_without_creases(report, index, buffer, capacity, length, nothing())
+        });
+        Some(crate::Prediction {
+            chosen: candidate_of(found.chosen),
+            scores,
+            noise: found.noise,
+            is_tip: found.is_tip == 1,
+            is_flat: found.is_flat == 1,
+            crease_count: found.crease_count as usize,
+            crease_surfaces,
+            without_creases: (!reason.is_empty()).then_some(reason),
+        })
     }
-    // SAFETY: `text` gives room as it says.
-    let reason = text(&|buffer, capacity, length| unsafe {
-        holefill_report_without_creases(creased, 0, buffer, capacity, length, nothing())
-    });
-    assert_eq!(reason, "");
-    for report in [without, sphere, creased] {
+}
+
+#[test]
+fn predictions_are_those_of_the_library() {
+    let off_center = |x: f64, y: f64| (x - 12.0).hypot(y - 12.0);
+    let bent = |x: f64, y: f64| -0.08 * (off_center(x, y) - 6.0).max(0.0).powi(2);
+    let noisy = |x: f64, y: f64| 0.1 * (91.0 * x + 57.0 * y).sin();
+    let over_hole = |c: fixtures::Point| off_center(c[0], c[1]) < 4.0;
+    let edge = |[x, y, z]: fixtures::Point| (x - 1.0).hypot(y - 1.0).hypot(z) < 0.5;
+    let ridges = |x: f64, _: f64| (x - 10.0).abs() + (x - 14.0).abs();
+    let tube = fixtures::cylinder(24, 10);
+    let height = 1.5 * tube.positions.iter().map(|p| p[2]).fold(0.0, f64::max);
+    let meshes = [
+        fixtures::sphere(14).cut(|c| c[2] > 0.75),
+        tube.mapped(|[x, y, z]| [x * (1.0 - z / height), y * (1.0 - z / height), z]),
+        fixtures::sheet(24, bent).cut(over_hole),
+        fixtures::sheet(24, noisy).cut(over_hole),
+        fixtures::cube(12).cut(edge),
+        fixtures::sheet(24, ridges).cut(over_hole),
+    ];
+    let mut seen = Vec::new();
+    for arrays in &meshes {
+        let mesh = mesh_of(arrays);
+        let mut report = HolefillReport::default();
+        // SAFETY: all pointers are null or to living values.
+        let status = unsafe {
+            let options = with_method(c"auto");
+            holefill_mesh_fill_selected(mesh.0, ptr::null(), &options, &mut report, nothing())
+        };
+        assert_eq!(status, HOLEFILL_STATUS_OK);
+        let (positions, triangles) = (arrays.positions.clone(), arrays.triangles.clone());
+        let mut same = crate::TriMesh::new(positions, triangles).unwrap();
+        let boundary = crate::BoundaryLoops::find(&same);
+        let options = crate::FillOptions {
+            method: crate::Method::Auto,
+            ..Default::default()
+        };
+        let expected =
+            crate::fill_holes(&mut same, &boundary, &Default::default(), &options, None).unwrap();
+        for (i, hole) in (0..).zip(&expected.holes) {
+            assert_eq!(prediction(report, i), hole.prediction);
+            seen.extend(hole.prediction.clone());
+        }
         holefill_report_free(report);
     }
+    // Every field differs somewhere.
+    assert!(seen.iter().any(|p| p.is_tip) && seen.iter().any(|p| p.is_flat));
+    assert!(
+        seen.iter()
+            .any(|p| p.crease_count > 0 && !p.crease_surfaces.is_empty())
+    );
+    assert!(seen.iter().any(|p| p.without_creases.is_some()), "{seen:?}");
+    assert!(seen.iter().any(|p| p.noise > 0.01));
+}
+
+#[test]
+fn what_predicts_nothing_has_no_prediction() {
+    let mesh = holed_mesh();
+    let mut report = HolefillReport::default();
+    // SAFETY: all pointers are null or to living values.
+    let status = unsafe {
+        let options = with_method(c"fair-c1");
+        holefill_mesh_fill_loop(mesh.0, 0, &options, &mut report, nothing())
+    };
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    assert_eq!(prediction(report, 0), None);
+    holefill_report_free(report);
 }
 
 #[test]

@@ -113,14 +113,14 @@ fn handles_of_nothing_are_refused_by_every_function() {
         let statuses = unsafe {
             let mut a = memory::blank();
             let mut b = memory::blank();
-            let (mut c, mut distance) = (memory::blank(), 0.0);
+            let (mut c, mut score) = (memory::blank(), 0.0);
             [
                 holefill_report_summary(report, &mut a, none),
                 holefill_report_hole(report, 0, &mut b, none),
                 holefill_report_reason(report, 0, no, 0, &mut length, none),
                 holefill_report_tried(report, 0, 0, &mut method, no, 0, &mut length, none),
                 holefill_report_prediction(report, 0, &mut c, none),
-                holefill_report_score(report, 0, 0, &mut method, &mut distance, none),
+                holefill_report_score(report, 0, 0, &mut method, &mut score, none),
                 holefill_report_crease_surface(report, 0, 0, &mut method, none),
                 holefill_report_without_creases(report, 0, no, 0, &mut length, none),
             ]

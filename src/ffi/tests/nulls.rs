@@ -76,7 +76,7 @@ struct Outputs {
     hole: HolefillHole,
     summary: HolefillSummary,
     prediction: HolefillPrediction,
-    distance: f64,
+    score: f64,
 }
 
 impl World {
@@ -120,7 +120,7 @@ impl World {
             hole: memory::blank(),
             summary: memory::blank(),
             prediction: memory::blank(),
-            distance: 77.0,
+            score: 77.0,
         };
         Self {
             plan: plan_loop(mesh.0, 0, &options()),
@@ -331,7 +331,7 @@ fn null_for_every_pointer_of_every_function() {
         with_nulls!(w: holefill_report_prediction, (w.predicted), (0),
             ["prediction", &raw mut w.out.prediction, NULL], ["error", &raw mut w.error, OK]),
         with_nulls!(w: holefill_report_score, (w.predicted), (0), (0), ["candidate", &raw mut w.out.method, NULL],
-            ["distance", &raw mut w.out.distance, NULL], ["error", &raw mut w.error, OK]),
+            ["score", &raw mut w.out.score, NULL], ["error", &raw mut w.error, OK]),
         with_nulls!(w: holefill_report_crease_surface, (w.predicted), (0), (0),
             ["candidate", &raw mut w.out.method, NULL], ["error", &raw mut w.error, OK]),
         with_nulls!(w: holefill_report_without_creases, (w.predicted), (0), ["buffer", w.out.text.as_mut_ptr(), NULL],

@@ -35,10 +35,10 @@ const AS_GOOD_AS_EXACT: f64 = 2e-3;
 const INTERPOLATION_FACTOR: f64 = 1.25;
 /// On noisy surroundings the simplest candidate within this factor of the best is taken.
 const NOISY_TOLERANCE: f64 = 1.12;
-/// The quintic kernel must beat the cubic one by this factor, on surroundings as smooth as [`SMOOTH`] and on others:
-/// it overshoots where the surface has detail.
-const QUINTIC_FACTOR: [f64; 2] = [0.95, 0.6];
-const SMOOTH: f64 = 0.01;
+/// The quintic kernel must beat the cubic one by this factor: it overshoots where the surface has detail. Of factors from
+/// 0.4 to 0.95, 0.5 and 0.6 serve best on 348 holes cut out of 14 models: patches are 13 % better than with 0.95, and 1 %
+/// better than without the quintic kernel, which wins by far more where there is no detail.
+const QUINTIC_FACTOR: f64 = 0.6;
 /// On rims with more edges than this it must beat it by more, in proportion: functions that grow faster are trusted
 /// less far. The middle of such a hole is eight times as many rings away as the widest band that is left out.
 const WIDE_RIM: f64 = 150.0;
@@ -88,9 +88,8 @@ pub(crate) fn scores(
         let mut score = race.run(samples, candidate, widest);
         if candidate == Candidate::Quintic
             && let Some(cubic) = score_of(&scores, Candidate::Cubic)
-            && score > quintic_factor(samples.noise, rim_edges) * cubic
         {
-            score = score.max(1.01 * cubic);
+            score = of_quintic(score, cubic, rim_edges);
         }
         if score.is_finite() {
             scores.push((candidate, score));
@@ -99,8 +98,14 @@ pub(crate) fn scores(
     scores
 }
 
-fn quintic_factor(noise: f64, rim_edges: usize) -> f64 {
-    QUINTIC_FACTOR[usize::from(noise >= SMOOTH)] * (WIDE_RIM / rim_edges as f64).min(1.0)
+/// The score of the quintic kernel, made worse than that of the cubic one unless it beats it clearly.
+fn of_quintic(score: f64, cubic: f64, rim_edges: usize) -> f64 {
+    let factor = QUINTIC_FACTOR * (WIDE_RIM / rim_edges as f64).min(1.0);
+    if score > factor * cubic {
+        score.max(1.01 * cubic)
+    } else {
+        score
+    }
 }
 
 /// The score of a candidate, if it has one.
@@ -259,6 +264,34 @@ mod tests {
             "{behind}"
         );
         assert_eq!(race.best, best);
+    }
+
+    #[test]
+    fn the_quintic_kernel_must_win_clearly_and_more_so_on_wide_rims() {
+        for (score, rim_edges, wins) in [
+            (0.5, 20, true),
+            (0.5, 150, true),
+            (0.5, 300, false),
+            (0.25, 300, true),
+            (0.7, 20, false),
+            (2.0, 20, false),
+        ] {
+            let scores = [
+                (Candidate::Cubic, 1.0),
+                (Candidate::Quintic, of_quintic(score, 1.0, rim_edges)),
+            ];
+            let expected = if wins {
+                Candidate::Quintic
+            } else {
+                Candidate::Cubic
+            };
+            assert_eq!(
+                choose(&scores, false),
+                Some(expected),
+                "{score} {rim_edges}"
+            );
+            assert!(scores[1].1 >= score);
+        }
     }
 
     #[test]

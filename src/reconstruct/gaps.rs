@@ -7,15 +7,16 @@
 //! Complexity: linear in the boundary.
 
 use super::reach::circumradius;
-use super::surface::Surface;
+use super::surface::{Surface, rotations};
 use crate::math::{Vec3, cross_normal};
 
 /// Most edges of a hole that is closed: as many as a hole as large as the limit has in a regular mesh. Loops of
 /// more edges are not worth a try.
 const MOST_EDGES: usize = 12;
 
-/// Closes the holes of few edges whose triangles have circles of at most `limit(corners)`; all of a hole or
-/// nothing. Every point must have one fan.
+/// Closes the holes of few edges whose triangles have circles of at most `limit(corners)`, and face like the normals of
+/// their corners or make an acute angle with the normals of all triangles beside them: estimated normals may be wrong
+/// at folds. All of a hole or nothing. Every point must have one fan.
 pub(super) fn close_small_holes(
     surface: &mut Surface,
     points: &[Vec3],
@@ -23,12 +24,19 @@ pub(super) fn close_small_holes(
     limit: impl Fn([u32; 3]) -> f64,
 ) {
     for hole in small_loops(surface) {
-        let added = clip_ears(surface, &hole, |corners| {
-            let [a, b, c] = corners.map(|v| points[v as usize]);
-            let facing = cross_normal(&a, &b, &c);
-            let is_alike = |&v: &u32| normal(v).is_some_and(|n| n.dot(&facing) > 0.0);
-            let radius = circumradius([a, b, c]);
-            (radius <= limit(corners) && corners.iter().all(is_alike)).then_some(radius)
+        let added = clip_ears(surface, &hole, |surface, corners| {
+            let place = |v: u32| points[v as usize];
+            let facing = |[a, b, c]: [u32; 3]| cross_normal(&place(a), &place(b), &place(c));
+            let own = facing(corners);
+            let is_alike = |&v: &u32| normal(v).is_some_and(|n| n.dot(&own) > 0.0);
+            let is_folded_against = |[a, b, _]: [u32; 3]| {
+                let third = surface.third(b, a);
+                third.is_some_and(|c| facing([b, a, c]).dot(&own) <= 0.0)
+            };
+            let radius = circumradius(corners.map(place));
+            let fits = corners.iter().all(is_alike)
+                || !rotations(corners).into_iter().any(is_folded_against);
+            (radius <= limit(corners) && fits).then_some(radius)
         });
         if let Err(added) = added {
             for triangle in added {
@@ -64,14 +72,14 @@ fn small_loops(surface: &Surface) -> Vec<Vec<u32>> {
     sides.iter().filter_map(|side| trace(side[0])).collect()
 }
 
-/// Triangulates a loop from its best ears on; `cost` refuses triangles or orders them.
+/// Triangulates a loop from its best ears on; `cost` refuses triangles or orders them, given what is there already.
 ///
 /// # Errors
 /// The triangles that were added before none was left that fits.
 fn clip_ears(
     surface: &mut Surface,
     hole: &[u32],
-    cost: impl Fn([u32; 3]) -> Option<f64>,
+    cost: impl Fn(&Surface, [u32; 3]) -> Option<f64>,
 ) -> Result<(), Vec<[u32; 3]>> {
     let mut rest = hole.to_vec();
     let mut added = Vec::new();
@@ -83,7 +91,7 @@ fn clip_ears(
             // Against the direction of the sides.
             let ear = [c, b, a];
             let is_free = !is_joined && surface.connects(ear);
-            let cost = if is_free { cost(ear) } else { None };
+            let cost = if is_free { cost(surface, ear) } else { None };
             cost.map(|cost| (cost, k, ear))
         });
         let best = ears.min_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));

@@ -148,7 +148,7 @@ impl<'a> Surface<'a> {
     }
 
     /// The third corner of the triangle that the directed edge a -> b belongs to.
-    fn third(&self, a: u32, b: u32) -> Option<u32> {
+    pub(super) fn third(&self, a: u32, b: u32) -> Option<u32> {
         let arcs = &self.arcs[a as usize];
         arcs.iter().find(|arc| arc[0] == b).map(|arc| arc[1])
     }

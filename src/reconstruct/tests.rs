@@ -142,7 +142,7 @@ fn bent_sheet_without(
 
 #[test]
 fn a_gap_is_closed_wholly_or_not_at_all() {
-    for radius in [1.0, 1.1, 1.2] {
+    for radius in [0.7, 0.8, 0.9, 1.0, 1.1, 1.2] {
         for is_staggered in [false, true] {
             let loops = |missing| {
                 let points = bent_sheet_without(missing, radius, is_staggered);
@@ -151,7 +151,8 @@ fn a_gap_is_closed_wholly_or_not_at_all() {
                 loop_sizes(&mesh)
             };
             // Circles of 1.8 times the median of the surface, and of 3.5 times.
-            assert_eq!(loops(8..9), [90], "{radius}, {is_staggered}");
+            let whole = loops(8..9);
+            assert_eq!(whole.len(), 1, "{radius}, {is_staggered}: {whole:?}");
             let sizes = loops(6..9);
             assert_eq!(sizes.len(), 2, "{radius}, {is_staggered}: {sizes:?}");
             assert!((14..=18).contains(&sizes[0]), "{sizes:?}");

@@ -33,7 +33,7 @@ case "$sanitizer" in
 esac
 folder="target/sanitize-$sanitizer"
 cargo test --locked "${build_std[@]}" --lib --no-default-features --target "$target" --target-dir "$folder" -- "$filter" \
-    --skip answered_soon # Instrumented code takes longer than that test allows.
+    --skip answered_soon --skip costs_little # Instrumented code takes longer than these tests allow.
 
 if ! command -v cmake >/dev/null; then
     echo "SKIPPED: the programs in C and C++: cmake is missing"

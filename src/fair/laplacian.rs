@@ -150,13 +150,9 @@ impl Domain {
         for v in 0..count {
             starts[v + 1] += starts[v];
         }
-        // Half of each edge's weight for either direction, by column; what is called column is the row here.
+        // Row and half of the weight of each edge, for either direction, by column.
         let mut slots = starts.clone();
-        let zero = Entry {
-            column: 0,
-            weight: 0.0,
-        };
-        let mut by_column = vec![zero; 6 * self.triangles.len()];
+        let mut by_column = vec![(0_u32, 0.0); 6 * self.triangles.len()];
         for (i, t) in self.triangles.iter().enumerate() {
             if i % ROWS_PER_CHECK == ROWS_PER_CHECK - 1 {
                 proceed_unless(interrupted)?;
@@ -171,10 +167,7 @@ impl Domain {
                 let (a, b) = (t[(k + 1) % 3], t[(k + 2) % 3]);
                 for (row, column) in [(a, b), (b, a)] {
                     let slot = &mut slots[column as usize];
-                    by_column[*slot as usize] = Entry {
-                        column: row,
-                        weight: cotangents[k] / 2.0,
-                    };
+                    by_column[*slot as usize] = (row, cotangents[k] / 2.0);
                     *slot += 1;
                 }
                 self.areas[t[k] as usize] += areas[k];
@@ -182,16 +175,20 @@ impl Domain {
         }
         // Taken column by column, the entries of each row come in ascending order.
         slots.copy_from_slice(&starts);
+        let zero = Entry {
+            column: 0,
+            weight: 0.0,
+        };
         let mut half_edges = vec![zero; by_column.len()];
         for column in 0..count {
             if column % ROWS_PER_CHECK == ROWS_PER_CHECK - 1 {
                 proceed_unless(interrupted)?;
             }
-            for entry in &by_column[starts[column] as usize..starts[column + 1] as usize] {
-                let slot = &mut slots[entry.column as usize];
+            for &(row, weight) in &by_column[starts[column] as usize..starts[column + 1] as usize] {
+                let slot = &mut slots[row as usize];
                 half_edges[*slot as usize] = Entry {
                     column: column as u32,
-                    weight: entry.weight,
+                    weight,
                 };
                 *slot += 1;
             }

@@ -6,20 +6,31 @@ use crate::fill::session::{FillSession, Target};
 use crate::mesh::trimesh::TriMesh;
 use std::time::Instant;
 
-/// Squares along one side of the sheet: two triangles each make four million.
-const SIDE: usize = 1415;
+/// Squares along one side of the sheet, of two triangles each: `HOLEFILL_COST_SIDE` in the environment, or enough for
+/// 125,000 triangles.
+fn side() -> usize {
+    let text = std::env::var("HOLEFILL_COST_SIDE").unwrap_or_default();
+    text.parse().unwrap_or(250)
+}
+
 const TURNS: usize = 15;
+
+/// Most that a handle may cost over the same mesh made in Rust, and a fill over the same fill. The aims are 1.3 and
+/// 1.05; other programs and tests at work take the rest.
+const DEAREST_HANDLE: f64 = 2.0;
+const DEAREST_FILL: f64 = 1.5;
 
 /// A sheet with a hole of 52 edges in its middle, and its outer rim.
 fn large() -> Arrays {
-    let middle = SIDE / 2;
+    let side = side();
+    let middle = side / 2;
     let is_hole = |i: usize, j: usize| i.abs_diff(middle) <= 6 && j.abs_diff(middle) <= 6;
-    fixtures::sheet_without(SIDE, is_hole)
+    fixtures::sheet_without(side, is_hole)
 }
 
-fn median(mut seconds: Vec<f64>) -> f64 {
-    seconds.sort_by(f64::total_cmp);
-    seconds[seconds.len() / 2]
+/// The time that was disturbed least.
+fn least(seconds: &[f64]) -> f64 {
+    seconds.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
 fn timed<R>(seconds: &mut Vec<f64>, work: impl FnOnce() -> R) -> R {
@@ -31,7 +42,6 @@ fn timed<R>(seconds: &mut Vec<f64>, work: impl FnOnce() -> R) -> R {
 
 /// Prints what it measures. The two ways take turns, so that other programs slow both down alike.
 #[test]
-#[ignore = "no check but a measurement on four million triangles, which means something in release on an idle machine"]
 fn the_way_through_c_costs_little() {
     let arrays = large();
     let (vertices, faces) = (arrays.positions.len(), arrays.triangles.len());
@@ -47,14 +57,14 @@ fn the_way_through_c_costs_little() {
         let mesh = timed(&mut new, || TriMesh::new(positions, triangles));
         drop(mesh);
     }
-    let handle = median(from_arrays);
-    let (copied, new) = (median(copied), median(new));
+    let [handle, copied, new] = [from_arrays, copied, new].map(|seconds| least(&seconds));
     println!(
         "{faces} triangles: handle {handle:.3} s; Rust build from copies {copied:.3} s, ratio {:.3}; from arrays given \
          away {new:.3} s, ratio {:.3}",
         handle / copied,
         handle / new
     );
+    assert!(handle < DEAREST_HANDLE * copied, "{handle} {copied}");
     let mesh = mesh_of(&arrays);
     let mut session =
         FillSession::new(TriMesh::new(arrays.positions.clone(), arrays.triangles).unwrap());
@@ -101,12 +111,13 @@ fn the_way_through_c_costs_little() {
             points.len() + faces.len()
         });
     }
-    let (c, rust) = (median(in_c), median(in_rust));
+    let [c, rust, patch_only] = [in_c, in_rust, patch_only].map(|seconds| least(&seconds));
     println!(
         "fill in C {:.3} ms, in Rust {:.3} ms, ratio {:.3}; plan and read the patch {:.3} ms",
         1e3 * c,
         1e3 * rust,
         c / rust,
-        1e3 * median(patch_only)
+        1e3 * patch_only
     );
+    assert!(c < DEAREST_FILL * rust, "{c} {rust}");
 }

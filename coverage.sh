@@ -58,7 +58,7 @@ mapfile -t programs < <(cargo test --locked --no-run --message-format=json |
     sed -n 's/.*"executable":"\([^"]*\)".*/\1/p')
 [ ${#programs[@]} -gt 0 ] || { echo "coverage: the tests do not compile" >&2 && exit 1; }
 tests=passed
-# Instrumented code is slower than what two tests allow it between two questions whether to stop.
+# Instrumented code is slower than what these tests allow.
 cargo test --locked --lib --bins --tests --no-fail-fast -- --skip asked_often --skip answered_soon --skip costs_little || tests=failed
 
 "$llvm_profdata" merge --sparse "$raw"/*.profraw -o "$raw/all.profdata"

@@ -71,7 +71,7 @@ const BENT_SHARE: f64 = 0.1;
 /// Noise above which fairing with common curvature amplifies it.
 const TOO_NOISY_FOR_CURVATURE: f64 = 0.06;
 
-/// Candidate of [`Method::Curvature`], and where the surroundings are noisy.
+/// Candidate of [`Method::Curvature`], and where the surroundings are noisy or detailed round a wide hole.
 const UNCHOSEN: [Candidate; 2] = [Candidate::Cubic, Candidate::CubicSmoothed];
 
 /// Predicts the surface in one hole.
@@ -120,7 +120,8 @@ impl<'a> Auto<'a> {
     ) -> Result<PatchSurface> {
         let lengths = &self.hole.edge_lengths;
         let step = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
-        let mut samples = SampledBand::new(Band::new(self.hole), step, self.options.auto.jets)
+        let (band, rim_edges) = (Band::new(self.hole), self.hole.polygon.len());
+        let mut samples = SampledBand::new(band, step, rim_edges, self.options.auto.jets)
             .stopped_by(self.interrupted);
         staircase.check_interruption()?;
         let is_noisy = samples.is_noisy();
@@ -245,9 +246,13 @@ impl Auto<'_> {
     }
 
     /// Whether the options let a candidate compete.
-    pub(super) fn allows(options: &FillOptions, candidate: Candidate, is_noisy: bool) -> bool {
+    pub(super) fn allows(
+        options: &FillOptions,
+        candidate: Candidate,
+        samples: &SampledBand,
+    ) -> bool {
         let options = &options.auto;
-        candidate.suits(is_noisy)
+        candidate.suits(samples)
             && (options.primitives || candidate.interpolates())
             && (options.quintic || candidate != Candidate::Quintic)
     }
@@ -271,13 +276,14 @@ impl Auto<'_> {
             return Ok((candidate, Vec::new(), self.stump(samples)));
         }
         if method == Method::Curvature {
-            return Ok((UNCHOSEN[usize::from(is_noisy)], Vec::new(), None));
+            let is_smoothed = is_noisy || samples.is_detail_misleading();
+            return Ok((UNCHOSEN[usize::from(is_smoothed)], Vec::new(), None));
         }
         let candidates: Vec<Candidate> = Candidate::ALL
             .into_iter()
-            .filter(|c| Self::allows(self.options, *c, is_noisy))
+            .filter(|c| Self::allows(self.options, *c, samples))
             .collect();
-        let scores = choice::scores(samples, &candidates, self.hole.polygon.len());
+        let scores = choice::scores(samples, &candidates);
         // Scores of work that was broken off say nothing.
         proceed_unless(self.interrupted)?;
         let stump = self.stump(samples);

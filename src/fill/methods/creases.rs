@@ -19,6 +19,7 @@ use crate::predict::creases::region::{RegionSurface, fit_regions};
 use crate::predict::creases::slide::slide_ends;
 use crate::predict::surface::Implicit;
 use crate::predict::surface::candidates::Candidate;
+use crate::predict::surface::samples::SampledBand;
 use crate::quality::Surface;
 use crate::quality::self_intersection::{AppendedPatch, count};
 use crate::quality::spatial::FaceIndex;
@@ -57,8 +58,9 @@ impl Creases<'_> {
         let Some(mut regions) = detect(self.hole, self.interrupted)? else {
             return Ok(None);
         };
-        let allowed =
-            |candidate: Candidate, is_noisy| Auto::allows(self.options, candidate, is_noisy);
+        let allowed = |candidate: Candidate, samples: &SampledBand<'_>| {
+            Auto::allows(self.options, candidate, samples)
+        };
         let surfaces = fit_regions(self.hole, &regions, self.step, &allowed, self.interrupted)?;
         let score = common_score(&regions, &surfaces);
         if score > self.smooth_score {

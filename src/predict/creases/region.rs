@@ -71,19 +71,20 @@ pub(crate) fn fit_regions(
     hole: &HoleShape,
     regions: &Regions,
     step: f64,
-    allowed: &dyn Fn(Candidate, bool) -> bool,
+    allowed: &dyn Fn(Candidate, &SampledBand) -> bool,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<Vec<RegionSurface>> {
     let fit = |faces: &Vec<u32>| {
         proceed_unless(interrupted)?;
         let band = Band::new(&region_shape(hole, faces));
-        let mut samples = SampledBand::new(band, step, true).stopped_by(interrupted);
+        let mut samples =
+            SampledBand::new(band, step, hole.polygon.len(), true).stopped_by(interrupted);
         let is_noisy = samples.is_noisy();
         let candidates: Vec<Candidate> = Candidate::ALL
             .into_iter()
-            .filter(|c| allowed(*c, is_noisy))
+            .filter(|c| allowed(*c, &samples))
             .collect();
-        let scores = choice::scores(&mut samples, &candidates, hole.polygon.len());
+        let scores = choice::scores(&mut samples, &candidates);
         proceed_unless(interrupted)?;
         if let Some(candidate) = choice::choose(&scores, is_noisy)
             && let Some(surface) = candidate.fit_to_rim(&mut samples)

@@ -50,16 +50,17 @@ pub enum Candidate {
 }
 
 impl Candidate {
-    /// All candidates, in the order in which they are scored: those that rule others out come first.
+    /// All candidates, in the order in which they are scored: those that rule others out come first, and the quintic
+    /// kernel, which is judged by the cubic one, after that.
     pub const ALL: [Self; 11] = [
         Self::Quadric,
         Self::Plane,
         Self::Sphere,
         Self::Cyclide,
         Self::Cubic,
-        Self::Quintic,
         Self::CubicSmoothed,
         Self::CubicRidge,
+        Self::Quintic,
         Self::Cylinder,
         Self::Cone,
         Self::Torus,
@@ -106,11 +107,13 @@ impl Candidate {
         self.freedom() >= Self::Cubic.freedom()
     }
 
-    /// Whether the candidate suits surroundings that are noisy, or not.
-    pub(crate) fn suits(self, is_noisy: bool) -> bool {
+    /// Whether the candidate suits surroundings with such noise and detail.
+    pub(crate) fn suits(self, samples: &SampledBand) -> bool {
         match self {
-            Self::CubicSmoothed | Self::CubicRidge => is_noisy,
-            Self::Quintic => !is_noisy,
+            Self::Cubic => !samples.is_detail_misleading(),
+            Self::CubicSmoothed => samples.is_noisy() || samples.is_detail_misleading(),
+            Self::CubicRidge => samples.is_noisy(),
+            Self::Quintic => !samples.is_noisy(),
             _ => true,
         }
     }
@@ -139,23 +142,29 @@ impl Candidate {
         self.most_samples()[0]
     }
 
-    /// Fits the surface to the vertices.
+    /// Fits the surface to the vertices, smoothed where there is noise: that is what is scored.
     pub(crate) fn fit(
         self,
         samples: &mut SampledBand,
         vertices: &[u32],
     ) -> Option<Box<dyn Implicit>> {
         let reads_smoothed = samples.is_noisy() && !matches!(self, Self::Cubic | Self::Quintic);
-        let chosen: Vec<Sample> = vertices
-            .iter()
-            .map(|&v| {
-                if reads_smoothed {
-                    samples.smoothed_sample(v)
-                } else {
-                    samples.sample(v)
-                }
-            })
-            .collect();
+        let rings = reads_smoothed.then(|| samples.rings_over_noise());
+        self.fit_to(samples, vertices, rings)
+    }
+
+    /// Fits the surface to the vertices, smoothed over so many rings of neighbours.
+    fn fit_to(
+        self,
+        samples: &mut SampledBand,
+        vertices: &[u32],
+        rings: Option<usize>,
+    ) -> Option<Box<dyn Implicit>> {
+        let sample = |&v: &u32| match rings {
+            Some(rings) => samples.smoothed_sample(v, rings),
+            None => samples.sample(v),
+        };
+        let chosen: Vec<Sample> = vertices.iter().map(sample).collect();
         self.fit_samples(&chosen)
     }
 
@@ -186,10 +195,68 @@ impl Candidate {
             _ => FITTED_RINGS,
         };
         let vertices = samples.spread(0..last + 1, self.most_samples()[1]);
-        self.fit(samples, &vertices)
+        let reads_smoothed = match self {
+            Self::Cubic | Self::Quintic => false,
+            Self::CubicSmoothed => true,
+            _ => samples.is_noisy(),
+        };
+        let rings = reads_smoothed.then(|| samples.rings_over_detail());
+        self.fit_to(samples, &vertices, rings)
     }
 }
 
 fn boxed<S: Implicit + 'static>(fit: Option<Fit<S>>) -> Option<Box<dyn Implicit>> {
     fit.map(|f| Box::new(f.surface) as Box<dyn Implicit>)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixtures::rings_around;
+    use super::super::jets::Band;
+    use super::super::march;
+    use super::*;
+    use crate::math::Vec3;
+
+    /// The surroundings of a round hole in a paraboloid that rises by a twentieth of the hole's width, with ripples of
+    /// this height, five edges long.
+    fn rippled(around: u32, ripple: f64, phase: f64) -> SampledBand<'static> {
+        let radius = f64::from(around) / 6.0;
+        let shape = rings_around(around, |x, y| {
+            let rise = 0.1 / radius * (x * x + y * y);
+            rise + ripple * ((1.2 * x + phase).sin() * (1.1 * y - phase).sin())
+        });
+        SampledBand::new(Band::new(&shape), 1.0, around as usize, true)
+    }
+
+    fn off_at_middle(candidate: Candidate, around: u32, ripple: f64) -> f64 {
+        let squares = (0..8).map(|i| {
+            let mut samples = rippled(around, ripple, 0.7 * f64::from(i));
+            let surface = candidate.fit_to_rim(&mut samples).unwrap();
+            march::distance(surface.as_ref(), &Vec3::zeros()).powi(2)
+        });
+        (squares.sum::<f64>() / 8.0).sqrt()
+    }
+
+    #[test]
+    fn detail_misleads_only_round_wide_holes() {
+        for (around, ripple, misleads) in [
+            (400, 0.1, true),
+            (240, 0.05, true),
+            (240, 0.0, false),
+            (60, 0.1, false),
+        ] {
+            let samples = rippled(around, ripple, 0.0);
+            assert_eq!(samples.is_detail_misleading(), misleads, "{around}");
+            assert_eq!(Candidate::Cubic.suits(&samples), !misleads);
+            let is_smoothed = misleads || samples.is_noisy();
+            assert_eq!(Candidate::CubicSmoothed.suits(&samples), is_smoothed);
+            let [plain, smoothed] = [Candidate::Cubic, Candidate::CubicSmoothed]
+                .map(|c| off_at_middle(c, around, ripple));
+            if misleads {
+                assert!(smoothed < 0.4 * plain, "{around}: {smoothed} {plain}");
+            } else {
+                assert!(smoothed > 0.7 * plain, "{around}: {smoothed} {plain}");
+            }
+        }
+    }
 }

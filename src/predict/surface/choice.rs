@@ -62,11 +62,8 @@ const EDGES_PER_RING: usize = 6;
 ///
 /// Once a candidate is as good as exact, those with more freedom are not tried any more. One that is far behind after
 /// some of the bands is not tried on the others; its score is then as far behind the best one as it was there.
-pub(crate) fn scores(
-    samples: &mut SampledBand,
-    candidates: &[Candidate],
-    rim_edges: usize,
-) -> Vec<Score> {
+pub(crate) fn scores(samples: &mut SampledBand, candidates: &[Candidate]) -> Vec<Score> {
+    let rim_edges = samples.rim_edges;
     let widest = (rim_edges.div_ceil(EDGES_PER_RING) as u32).clamp(1, MOST_LEFT_OUT);
     let mut scores: Vec<Score> = Vec::new();
     let mut race = Race::default();
@@ -88,6 +85,7 @@ pub(crate) fn scores(
         let mut score = race.run(samples, candidate, widest);
         if candidate == Candidate::Quintic
             && let Some(cubic) = score_of(&scores, Candidate::Cubic)
+                .or_else(|| score_of(&scores, Candidate::CubicSmoothed))
         {
             score = of_quintic(score, cubic, rim_edges);
         }
@@ -207,53 +205,19 @@ fn left_out_distance(samples: &mut SampledBand, r: u32, surface: &dyn Implicit) 
 
 #[cfg(test)]
 mod tests {
+    use super::super::fixtures::rings_around;
     use super::super::jets::Band;
     use super::*;
-    use crate::math::Vec3;
-    use crate::patch::{HoleShape, Surroundings};
-    use std::f64::consts::TAU;
+    use crate::patch::HoleShape;
 
     /// Rings round the hole of a paraboloid of this steepness.
     fn rings(steepness: f64) -> HoleShape {
-        let around = 24;
-        let point = |ring: u32, k: u32| {
-            let (radius, angle) = (
-                4.0 + f64::from(ring),
-                TAU * f64::from(k) / f64::from(around),
-            );
-            Vec3::new(
-                radius * angle.cos(),
-                radius * angle.sin(),
-                steepness * radius * radius,
-            )
-        };
-        let ring = |r: u32| (0..around).map(move |k| point(r, k));
-        let vertex = |r: u32, k: u32| r * around + k % around;
-        let quads = (0..RINGS).flat_map(|r| (0..around).map(move |k| (r, k)));
-        let triangles = quads.flat_map(|(r, k)| {
-            let quad = [
-                vertex(r, k),
-                vertex(r + 1, k),
-                vertex(r + 1, k + 1),
-                vertex(r, k + 1),
-            ];
-            [[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]]
-        });
-        HoleShape {
-            points: ring(0).collect(),
-            polygon: (0..around).collect(),
-            surroundings: Surroundings {
-                points: (1..=RINGS).flat_map(ring).collect(),
-                levels: (1..=RINGS).flat_map(|r| vec![r; around as usize]).collect(),
-                triangles: triangles.collect(),
-            },
-            ..HoleShape::default()
-        }
+        rings_around(24, |x, y| steepness * (x * x + y * y))
     }
 
     #[test]
     fn what_falls_behind_is_not_as_good_as_exact() {
-        let mut samples = SampledBand::new(Band::new(&rings(0.05)), 1.0, true);
+        let mut samples = SampledBand::new(Band::new(&rings(0.05)), 1.0, 24, true);
         let whole = Race::default().run(&mut samples, Candidate::Plane, MOST_LEFT_OUT);
         assert!(whole > 0.1, "{whole}");
         let best = vec![whole / 10.0, 1e-3, 1e-5];
@@ -296,8 +260,8 @@ mod tests {
 
     #[test]
     fn nothing_with_more_freedom_than_an_exact_surface_is_tried() {
-        let mut samples = SampledBand::new(Band::new(&rings(0.0)), 1.0, true);
-        let scores = scores(&mut samples, &Candidate::ALL, 24);
+        let mut samples = SampledBand::new(Band::new(&rings(0.0)), 1.0, 24, true);
+        let scores = scores(&mut samples, &Candidate::ALL);
         assert!(is_exact(&scores), "{scores:?}");
         assert_eq!(score_of(&scores, Candidate::Cubic), None);
         assert_eq!(choose(&scores, false), Some(Candidate::Plane));

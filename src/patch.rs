@@ -72,6 +72,24 @@ impl HoleShape {
         (middle, 2.0 * farthest)
     }
 
+    /// Four times the area that the rim encloses, seen so that it is largest, over the rim's length: the diameter of a
+    /// round hole, twice the width of a slit or of a ring round an island.
+    pub(crate) fn width(&self) -> f64 {
+        let count = self.polygon.len();
+        let corner = |i: usize| self.points[self.polygon[i % count] as usize];
+        let (mut double_area, mut length) = (Vec3::zeros(), 0.0);
+        for i in 0..count {
+            let (from, to) = (corner(i), corner(i + 1));
+            double_area += (from - corner(0)).cross(&(to - corner(0)));
+            length += (to - from).norm();
+        }
+        if length > 0.0 {
+            2.0 * double_area.norm() / length
+        } else {
+            0.0
+        }
+    }
+
     /// The spacing at which the surface next to the rim is sampled: `sqrt(A / (3 n))` with `A` the area of the
     /// triangles that touch one of the `n` rim vertices. About 0.54 of an edge where these are equilateral.
     ///

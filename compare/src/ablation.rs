@@ -17,7 +17,7 @@ const LEAST_DEVIATION: f64 = 1e-4;
 const STAGES: [(&str, &[&str]); 6] = [
     ("without jets: normals of triangles", &["auto.jets=off"]),
     (
-        "without primitives: `rbf3` and `rbf5` only",
+        "without primitives: interpolating functions only",
         &["auto.primitives=off"],
     ),
     ("without `rbf5`", &["auto.quintic=off"]),

@@ -8,7 +8,7 @@ use super::creases::Creases;
 use super::hpde;
 use super::staircase::Staircase;
 use crate::error::{Error, ErrorKind, Result, proceed_every, proceed_unless};
-use crate::fair::kharmonic::extend_from_rim;
+use crate::fair::kharmonic::{extend_from_rim, extend_with_slope};
 use crate::fill::method::Method;
 use crate::fill::options::FillOptions;
 use crate::fill::report::Prediction;
@@ -120,8 +120,8 @@ impl<'a> Auto<'a> {
     ) -> Result<PatchSurface> {
         let lengths = &self.hole.edge_lengths;
         let step = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
-        let (band, rim_edges) = (Band::new(self.hole), self.hole.polygon.len());
-        let mut samples = SampledBand::new(band, step, rim_edges, self.options.auto.jets)
+        let band = Band::new(self.hole);
+        let mut samples = SampledBand::new(band, self.hole, step, self.options.auto.jets)
             .stopped_by(self.interrupted);
         staircase.check_interruption()?;
         let is_noisy = samples.is_noisy();
@@ -165,6 +165,7 @@ impl<'a> Auto<'a> {
             surface: surface.as_ref(),
             step,
             tip,
+            joins_with_slope: candidate == Candidate::CubicSmoothed && !is_noisy,
             interrupted: self.interrupted,
         };
         let faired = staircase.patch(Method::FairC1)?;
@@ -309,6 +310,8 @@ pub(super) struct Marcher<'a> {
     /// Mean edge length at the rim.
     pub(super) step: f64,
     pub(super) tip: Option<Tip>,
+    /// Whether what the rim is off the surface goes on with the slope that it has there: detail, as opposed to noise.
+    pub(super) joins_with_slope: bool,
     pub(super) interrupted: &'a dyn Fn() -> bool,
 }
 
@@ -442,17 +445,37 @@ impl Marcher<'_> {
 
     /// Adds to the interior what the rim is off the surface, fading inwards.
     fn blend(&self, patch: &mut PatchSurface, limit: f64) -> Result<()> {
-        let rim = &patch.points[..patch.rim_count];
-        let mut projected = rim.to_vec();
-        self.project(&mut projected, LAST_STEPS, limit)?;
-        let offsets: Vec<Vec3> = rim.iter().zip(&projected).map(|(p, q)| p - q).collect();
-        if patch.points.len() > patch.rim_count {
-            let extended = extend_from_rim(patch, &offsets, &mut SpdSolver::new(self.interrupted))?;
-            for (p, offset) in patch.points[patch.rim_count..].iter_mut().zip(extended) {
-                *p += offset;
+        let rim_count = patch.rim_count;
+        if patch.points.len() == rim_count {
+            return Ok(());
+        }
+        let at_rim = self.offsets(&patch.points[..rim_count], limit)?;
+        let mut solver = SpdSolver::new(self.interrupted);
+        let extended = if self.joins_with_slope {
+            let surroundings = &self.hole.surroundings;
+            // No other ring has a say in the slope.
+            let is_first = |&v: &usize| surroundings.levels[v] == 1;
+            let first: Vec<usize> = (0..surroundings.points.len()).filter(is_first).collect();
+            let points: Vec<Vec3> = first.iter().map(|&v| surroundings.points[v]).collect();
+            let mut around = vec![Vec3::zeros(); surroundings.points.len()];
+            for (v, offset) in first.into_iter().zip(self.offsets(&points, limit)?) {
+                around[v] = offset;
             }
+            extend_with_slope(patch, surroundings, &at_rim, &around, &mut solver)?
+        } else {
+            extend_from_rim(patch, &at_rim, &mut solver)?
+        };
+        for (p, offset) in patch.points[rim_count..].iter_mut().zip(extended) {
+            *p += offset;
         }
         Ok(())
+    }
+
+    /// What the points are off the surface.
+    fn offsets(&self, points: &[Vec3], limit: f64) -> Result<Vec<Vec3>> {
+        let mut projected = points.to_vec();
+        self.project(&mut projected, LAST_STEPS, limit)?;
+        Ok(points.iter().zip(&projected).map(|(p, q)| p - q).collect())
     }
 
     /// The gates.

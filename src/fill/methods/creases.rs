@@ -109,6 +109,7 @@ impl Creases<'_> {
             surface,
             step: self.step,
             tip: None,
+            joins_with_slope: false,
             interrupted: self.interrupted,
         };
         let (_, sizes) = staircase.refined()?;

@@ -136,6 +136,40 @@ fn noise_is_measured_and_not_continued() {
     assert!(mean < 0.02, "{mean}");
 }
 
+/// A wide hole in a dish with three lobes and ripples: what they would be in its middle nobody can know, but at its rim they go on.
+#[test]
+fn ripples_do_not_mislead_and_go_on_at_the_rim() {
+    let dish = |x: f64, y: f64| {
+        let (x, y) = (x - 50.0, y - 50.0);
+        0.003 * (x * x + y * y) + 2e-5 * (x.powi(3) - 3.0 * x * y * y)
+    };
+    let height = |x: f64, y: f64| dish(x, y) + 0.1 * (1.2 * x).sin() * (1.1 * y).sin();
+    let arrays = fixtures::sheet(100, height).cut(|c| (c[0] - 50.0).hypot(c[1] - 50.0) < 36.0);
+    let chosen_farthest_and_crease = |candidate| {
+        let mut options = with_method(Method::Auto);
+        options.auto.candidate = candidate;
+        let filled = fill(&arrays, &all_but_the_largest(), &options);
+        let hole = filled.report.holes.iter().find(|h| h.method.is_some());
+        let hole = hole.unwrap();
+        assert_eq!(hole.method, Some(Method::Auto), "{:?}", hole.tried);
+        let points = filled.new_points();
+        let off = points.iter().map(|p| (p.z - dish(p.x, p.y)).abs());
+        let creases = filled.creases_at_the_rims();
+        let mean_crease = creases.iter().sum::<f64>() / creases.len() as f64;
+        let chosen = hole.prediction.as_ref().unwrap().chosen;
+        (chosen, off.fold(0.0, f64::max), mean_crease)
+    };
+    let (chosen, farthest, crease) = chosen_farthest_and_crease(None);
+    assert_eq!(chosen, Candidate::CubicSmoothed);
+    let (_, misled, _) = chosen_farthest_and_crease(Some(Candidate::Cubic));
+    assert!(
+        farthest < 0.5 && misled > 2.0 * farthest,
+        "{farthest} {misled}"
+    );
+    // 0.053 where the ripples end at the rim.
+    assert!(crease < 0.05, "{crease}");
+}
+
 #[test]
 fn size_place_and_direction_change_neither_choice_nor_shape() {
     let sphere = fixtures::sphere(14).jittered(0.004, 21).cut(|c| c[2] > 0.6);

@@ -32,10 +32,10 @@ fn processor_seconds() -> Option<f64> {
     Some(nanoseconds * 1e-9)
 }
 
-/// The longest processor time between two questions while the hole of `edges` edges is planned on one thread, the
-/// work before the first and after the last one included.
-fn longest_gap(edges: usize, method: Method) -> f64 {
-    let mesh = mesh_of(&wide_rim(edges));
+/// The longest processor time between two questions while the hole in `arrays` is planned on one thread, the work before
+/// the first and after the last one included.
+fn longest_gap(arrays: &Arrays, method: Method) -> f64 {
+    let mesh = mesh_of(arrays);
     let boundary = BoundaryLoops::find(&mesh);
     let index = MeshIndex::build(&mesh);
     let options = with_method(method);
@@ -70,14 +70,21 @@ fn longest_gap(edges: usize, method: Method) -> f64 {
 
 #[test]
 fn the_question_whether_to_stop_is_asked_often() {
-    for method in [Method::Flat, Method::FairC2] {
+    let smooth = wide_rim(20_000);
+    let detailed = smooth.clone().jittered(5e-6, 1);
+    for (method, arrays) in [
+        (Method::Flat, &smooth),
+        (Method::FairC2, &smooth),
+        (Method::Auto, &detailed),
+    ] {
         // The same work every time: what only one run shows is another program's use of the caches.
-        let gap = (0..3)
-            .map(|_| longest_gap(20_000, method))
-            .find(|gap| *gap < LONGEST_GAP);
-        assert!(
-            gap.is_some(),
-            "{method}: {LONGEST_GAP} s without a question"
-        );
+        let mut gap = f64::INFINITY;
+        for _ in 0..3 {
+            gap = gap.min(longest_gap(arrays, method));
+            if gap < LONGEST_GAP {
+                break;
+            }
+        }
+        assert!(gap < LONGEST_GAP, "{method}: {gap:.3} s without a question");
     }
 }

@@ -231,21 +231,22 @@ impl Filled {
         count(mesh, &FaceIndex::build(mesh), patch).total()
     }
 
-    /// The largest angle in radians between the normals of a new and an old triangle at an edge of a
-    /// filled loop.
-    fn largest_crease_at_the_rims(&self) -> f64 {
+    /// The angles in radians between the normals of a new and an old triangle at the edges of the filled loops.
+    fn creases_at_the_rims(&self) -> Vec<f64> {
         let normal = |h: u32| {
             let [a, b, c] = self.after.corners(h / 3);
             crate::math::unit(crate::math::cross_normal(&a, &b, &c))
         };
-        let mut largest = 0.0_f64;
-        for h in self.boundary.loops.iter().flat_map(|l| &l.halfedges) {
-            let twin = self.after.connectivity().twin(*h);
-            if twin != BOUNDARY {
-                largest = largest.max(normal(*h).angle(&normal(twin)));
-            }
-        }
-        largest
+        let rims = self.boundary.loops.iter().flat_map(|l| &l.halfedges);
+        let pairs = rims.map(|&h| (h, self.after.connectivity().twin(h)));
+        pairs
+            .filter(|&(_, twin)| twin != BOUNDARY)
+            .map(|(h, twin)| normal(h).angle(&normal(twin)))
+            .collect()
+    }
+
+    fn largest_crease_at_the_rims(&self) -> f64 {
+        self.creases_at_the_rims().into_iter().fold(0.0, f64::max)
     }
 
     fn new_points(&self) -> &[Vec3] {

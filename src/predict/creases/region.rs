@@ -77,8 +77,7 @@ pub(crate) fn fit_regions(
     let fit = |faces: &Vec<u32>| {
         proceed_unless(interrupted)?;
         let band = Band::new(&region_shape(hole, faces));
-        let mut samples =
-            SampledBand::new(band, step, hole.polygon.len(), true).stopped_by(interrupted);
+        let mut samples = SampledBand::new(band, hole, step, true).stopped_by(interrupted);
         let is_noisy = samples.is_noisy();
         let candidates: Vec<Candidate> = Candidate::ALL
             .into_iter()

@@ -153,7 +153,8 @@ impl Candidate {
         self.fit_to(samples, vertices, rings)
     }
 
-    /// Fits the surface to the vertices, smoothed over so many rings of neighbours.
+    /// Fits the surface to the vertices, smoothed over so many rings of neighbours. `None` also when the caller asked to
+    /// stop.
     fn fit_to(
         self,
         samples: &mut SampledBand,
@@ -165,6 +166,9 @@ impl Candidate {
             None => samples.sample(v),
         };
         let chosen: Vec<Sample> = vertices.iter().map(sample).collect();
+        if samples.is_stopped() {
+            return None;
+        }
         self.fit_samples(&chosen)
     }
 
@@ -195,12 +199,14 @@ impl Candidate {
             _ => FITTED_RINGS,
         };
         let vertices = samples.spread(0..last + 1, self.most_samples()[1]);
-        let reads_smoothed = match self {
-            Self::Cubic | Self::Quintic => false,
-            Self::CubicSmoothed => true,
-            _ => samples.is_noisy(),
+        let over_noise = samples.is_noisy().then(|| samples.rings_over_noise());
+        let rings = match self {
+            Self::Cubic | Self::Quintic => None,
+            Self::CubicSmoothed => samples
+                .rings_over_detail()
+                .or(Some(samples.rings_over_noise())),
+            _ => over_noise,
         };
-        let rings = reads_smoothed.then(|| samples.rings_over_detail());
         self.fit_to(samples, &vertices, rings)
     }
 }
@@ -217,20 +223,25 @@ mod tests {
     use super::*;
     use crate::math::Vec3;
 
-    /// The surroundings of a round hole in a paraboloid that rises by a twentieth of the hole's width, with ripples of
-    /// this height, five edges long.
-    fn rippled(around: u32, ripple: f64, phase: f64) -> SampledBand<'static> {
+    /// The surroundings of a hole of 1 to `flatness` in a paraboloid that rises by a twentieth of the hole's length, with
+    /// ripples of this height, five edges long.
+    fn rippled(around: u32, ripple: f64, phase: f64, flatness: f64) -> SampledBand<'static> {
         let radius = f64::from(around) / 6.0;
-        let shape = rings_around(around, |x, y| {
+        let mut shape = rings_around(around, |x, y| {
             let rise = 0.1 / radius * (x * x + y * y);
             rise + ripple * ((1.2 * x + phase).sin() * (1.1 * y - phase).sin())
         });
-        SampledBand::new(Band::new(&shape), 1.0, around as usize, true)
+        let around = &mut shape.surroundings.points;
+        for p in shape.points.iter_mut().chain(around) {
+            p.y *= flatness;
+        }
+        SampledBand::new(Band::new(&shape), &shape, 1.0, true)
     }
 
+    /// How far off the surface is in the middle, over eight phases of the ripples.
     fn off_at_middle(candidate: Candidate, around: u32, ripple: f64) -> f64 {
         let squares = (0..8).map(|i| {
-            let mut samples = rippled(around, ripple, 0.7 * f64::from(i));
+            let mut samples = rippled(around, ripple, 0.7 * f64::from(i), 1.0);
             let surface = candidate.fit_to_rim(&mut samples).unwrap();
             march::distance(surface.as_ref(), &Vec3::zeros()).powi(2)
         });
@@ -238,25 +249,41 @@ mod tests {
     }
 
     #[test]
-    fn detail_misleads_only_round_wide_holes() {
-        for (around, ripple, misleads) in [
-            (400, 0.1, true),
-            (240, 0.05, true),
-            (240, 0.0, false),
-            (60, 0.1, false),
+    fn wide_holes_with_detail_are_continued_from_smoothed_points() {
+        let plain_over_smoothed = |around, ripple| {
+            let off = |candidate| off_at_middle(candidate, around, ripple);
+            off(Candidate::Cubic) / off(Candidate::CubicSmoothed)
+        };
+        let (wide, wider) = (
+            plain_over_smoothed(240, 0.05),
+            plain_over_smoothed(400, 0.1),
+        );
+        assert!(wide > 10.0 && wider > 20.0, "{wide} {wider}");
+        let narrow = plain_over_smoothed(60, 0.1);
+        assert!(narrow < 0.4, "{narrow}");
+    }
+
+    #[test]
+    fn rings_are_smoothed_by_the_width_of_the_hole() {
+        for (around, ripple, flatness, rings) in [
+            (400, 0.1, 1.0, Some(9)),
+            (2000, 0.1, 1.0, Some(9)),
+            (240, 0.1, 1.0, Some(5)),
+            (200, 0.05, 1.0, Some(4)),
+            // Not wide.
+            (198, 0.05, 1.0, None),
+            // Nothing to smooth.
+            (400, 0.0, 1.0, None),
+            // A slit.
+            (400, 0.1, 0.03, None),
         ] {
-            let samples = rippled(around, ripple, 0.0);
-            assert_eq!(samples.is_detail_misleading(), misleads, "{around}");
-            assert_eq!(Candidate::Cubic.suits(&samples), !misleads);
-            let is_smoothed = misleads || samples.is_noisy();
-            assert_eq!(Candidate::CubicSmoothed.suits(&samples), is_smoothed);
-            let [plain, smoothed] = [Candidate::Cubic, Candidate::CubicSmoothed]
-                .map(|c| off_at_middle(c, around, ripple));
-            if misleads {
-                assert!(smoothed < 0.4 * plain, "{around}: {smoothed} {plain}");
-            } else {
-                assert!(smoothed > 0.7 * plain, "{around}: {smoothed} {plain}");
-            }
+            let samples = rippled(around, ripple, 0.0, flatness);
+            assert_eq!(
+                samples.rings_over_detail(),
+                rings,
+                "{around} {ripple} {flatness}"
+            );
+            assert_eq!(Candidate::Cubic.suits(&samples), rings.is_none());
         }
     }
 }

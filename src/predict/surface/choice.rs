@@ -84,8 +84,7 @@ pub(crate) fn scores(samples: &mut SampledBand, candidates: &[Candidate]) -> Vec
         }
         let mut score = race.run(samples, candidate, widest);
         if candidate == Candidate::Quintic
-            && let Some(cubic) = score_of(&scores, Candidate::Cubic)
-                .or_else(|| score_of(&scores, Candidate::CubicSmoothed))
+            && let Some(cubic) = cubic_score(&scores)
         {
             score = of_quintic(score, cubic, rim_edges);
         }
@@ -94,6 +93,12 @@ pub(crate) fn scores(samples: &mut SampledBand, candidates: &[Candidate]) -> Vec
         }
     }
     scores
+}
+
+/// The score of the cubic kernel through the points that it suits best, as they are or smoothed.
+fn cubic_score(scores: &[Score]) -> Option<f64> {
+    let is_cubic = |s: &&Score| matches!(s.0, Candidate::Cubic | Candidate::CubicSmoothed);
+    scores.iter().find(is_cubic).map(|s| s.1)
 }
 
 /// The score of the quintic kernel, made worse than that of the cubic one unless it beats it clearly.
@@ -208,16 +213,16 @@ mod tests {
     use super::super::fixtures::rings_around;
     use super::super::jets::Band;
     use super::*;
-    use crate::patch::HoleShape;
 
     /// Rings round the hole of a paraboloid of this steepness.
-    fn rings(steepness: f64) -> HoleShape {
-        rings_around(24, |x, y| steepness * (x * x + y * y))
+    fn sampled(steepness: f64) -> SampledBand<'static> {
+        let hole = rings_around(24, |x, y| steepness * (x * x + y * y));
+        SampledBand::new(Band::new(&hole), &hole, 1.0, true)
     }
 
     #[test]
     fn what_falls_behind_is_not_as_good_as_exact() {
-        let mut samples = SampledBand::new(Band::new(&rings(0.05)), 1.0, 24, true);
+        let mut samples = sampled(0.05);
         let whole = Race::default().run(&mut samples, Candidate::Plane, MOST_LEFT_OUT);
         assert!(whole > 0.1, "{whole}");
         let best = vec![whole / 10.0, 1e-3, 1e-5];
@@ -259,8 +264,18 @@ mod tests {
     }
 
     #[test]
+    fn the_quintic_kernel_is_held_against_either_cubic_one() {
+        let position = |c| Candidate::ALL.iter().position(|&other| other == c);
+        for cubic in [Candidate::Cubic, Candidate::CubicSmoothed] {
+            assert!(position(cubic) < position(Candidate::Quintic));
+            let scores = [(Candidate::Quadric, 3.0), (cubic, 2.0)];
+            assert_eq!(cubic_score(&scores), Some(2.0));
+        }
+    }
+
+    #[test]
     fn nothing_with_more_freedom_than_an_exact_surface_is_tried() {
-        let mut samples = SampledBand::new(Band::new(&rings(0.0)), 1.0, 24, true);
+        let mut samples = sampled(0.0);
         let scores = scores(&mut samples, &Candidate::ALL);
         assert!(is_exact(&scores), "{scores:?}");
         assert_eq!(score_of(&scores, Candidate::Cubic), None);

@@ -72,8 +72,9 @@ impl HoleShape {
         (middle, 2.0 * farthest)
     }
 
-    /// Four times the area that the rim encloses, seen so that it is largest, over the rim's length: the diameter of a
-    /// round hole, twice the width of a slit or of a ring round an island.
+    /// Four times the area that the polygon encloses, seen so that it is largest, over the polygon's length: the diameter
+    /// of a round hole, twice the width of a slit or of a ring round an island. Bridges to islands count twice in the
+    /// length.
     pub(crate) fn width(&self) -> f64 {
         let count = self.polygon.len();
         let corner = |i: usize| self.points[self.polygon[i % count] as usize];

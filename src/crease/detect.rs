@@ -67,7 +67,8 @@ pub(crate) fn detect(hole: &HoleShape, interrupted: &dyn Fn() -> bool) -> Result
     if facets.turn_less_than(LEAST_ANGLE / 2.0) {
         return Ok(None);
     }
-    facets.find_edges();
+    proceed_unless(interrupted)?;
+    facets.find_edges(interrupted)?;
     facets.filter_normals(interrupted)?;
     let threshold = threshold(&facets);
     proceed_unless(interrupted)?;
@@ -106,9 +107,12 @@ fn unusable<T>(reason: &str) -> Result<T> {
 /// The angle from which on an edge is a crease.
 fn threshold(facets: &Facets<'_>) -> f64 {
     let mut angles: Vec<f64> = facets.edges.iter().map(|e| facets.angle(e)).collect();
-    angles.sort_unstable_by(f64::total_cmp);
     let at = (USUAL_QUANTILE * angles.len() as f64) as usize;
-    let usual = angles.get(at).copied().unwrap_or(0.0);
+    let usual = if at < angles.len() {
+        *angles.select_nth_unstable_by(at, f64::total_cmp).1
+    } else {
+        0.0
+    };
     LEAST_ANGLE.max(STAND_OUT * usual)
 }
 

@@ -5,7 +5,7 @@
 //! normals are alike and so keeps creases. The width of "alike" follows from the normals themselves: a clean mesh is
 //! left as it is.
 
-use crate::error::{Result, proceed_unless};
+use crate::error::{Result, proceed_every, proceed_unless};
 use crate::math::{Vec3, cross_normal, unit};
 use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD, origin, target};
 use crate::mesh::pairing::pair_halfedges;
@@ -18,6 +18,9 @@ const ROUNDS: usize = 6;
 /// that it would average over creases.
 const WIDTH_FACTOR: f64 = 2.0;
 const MOST_WIDTH: f64 = 0.35;
+
+/// Triangles that are read between two questions whether to stop: about a millisecond's work.
+const FACES_PER_CHECK: usize = 4096;
 
 /// An edge between two known triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,9 +67,13 @@ impl<'a> Facets<'a> {
     }
 
     /// Finds out which triangles meet in which edge.
-    pub(super) fn find_edges(&mut self) {
+    ///
+    /// # Errors
+    /// `Cancelled` when `interrupted` returns true.
+    pub(super) fn find_edges(&mut self, interrupted: &dyn Fn() -> bool) -> Result<()> {
         let vertex_count = self.hole.points.len() + self.hole.surroundings.points.len();
-        self.edges = shared_edges(self.triangles(), vertex_count);
+        self.edges = shared_edges(self.triangles(), vertex_count, interrupted)?;
+        Ok(())
     }
 
     pub(super) fn triangles(&self) -> &[[u32; 3]] {
@@ -122,16 +129,20 @@ impl<'a> Facets<'a> {
             .iter()
             .map(|e| (self.normals[e.faces[0] as usize] - self.normals[e.faces[1] as usize]).norm())
             .collect();
-        differences.sort_unstable_by(f64::total_cmp);
-        let median = differences.get(differences.len() / 2).copied();
-        let width = (WIDTH_FACTOR * median.unwrap_or(0.0)).min(MOST_WIDTH);
+        let middle = differences.len() / 2;
+        if middle == differences.len() {
+            return Ok(());
+        }
+        let (_, median, _) = differences.select_nth_unstable_by(middle, f64::total_cmp);
+        let width = (WIDTH_FACTOR * *median).min(MOST_WIDTH);
         if width <= 0.0 {
             return Ok(());
         }
-        let neighbors = self.neighbors();
+        let neighbors = self.neighbors(interrupted)?;
         for _ in 0..ROUNDS {
-            proceed_unless(interrupted)?;
-            let filtered = (0..self.normals.len()).map(|f| {
+            let mut filtered = Vec::with_capacity(self.normals.len());
+            for f in 0..self.normals.len() {
+                proceed_every(FACES_PER_CHECK, f, interrupted)?;
                 let own = self.normals[f];
                 let mut sum = self.areas[f] * own;
                 for &g in &neighbors[f] {
@@ -139,23 +150,25 @@ impl<'a> Facets<'a> {
                     let unlike = (own - other).norm_squared() / (2.0 * width * width);
                     sum += self.areas[g as usize] * (-unlike).exp() * other;
                 }
-                unit(sum)
-            });
-            self.normals = filtered.collect();
+                filtered.push(unit(sum));
+            }
+            self.normals = filtered;
         }
         Ok(())
     }
 
     /// The triangles that share a vertex with each triangle.
-    fn neighbors(&self) -> Vec<Vec<u32>> {
+    fn neighbors(&self, interrupted: &dyn Fn() -> bool) -> Result<Vec<Vec<u32>>> {
         let count = self.hole.points.len() + self.hole.surroundings.points.len();
         let mut at_vertex: Vec<Vec<u32>> = vec![Vec::new(); count];
-        for (f, t) in (0..).zip(self.triangles()) {
+        for (f, t) in (0_u32..).zip(self.triangles()) {
+            proceed_every(FACES_PER_CHECK, f as usize, interrupted)?;
             for &v in t {
                 at_vertex[v as usize].push(f);
             }
         }
         let around = |(f, t): (u32, &[u32; 3])| {
+            proceed_every(FACES_PER_CHECK, f as usize, interrupted)?;
             let mut near: Vec<u32> = t
                 .iter()
                 .flat_map(|&v| at_vertex[v as usize].iter().copied())
@@ -163,16 +176,22 @@ impl<'a> Facets<'a> {
                 .collect();
             near.sort_unstable();
             near.dedup();
-            near
+            Ok(near)
         };
         (0..).zip(self.triangles()).map(around).collect()
     }
 }
 
 /// The edges with two consistently oriented triangles, sorted by their ends.
-fn shared_edges(triangles: &[[u32; 3]], vertex_count: usize) -> Vec<SharedEdge> {
+fn shared_edges(
+    triangles: &[[u32; 3]],
+    vertex_count: usize,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<Vec<SharedEdge>> {
+    let twins = pair_halfedges(triangles, vertex_count);
+    proceed_unless(interrupted)?;
     let mut edges: Vec<SharedEdge> = (0_u32..)
-        .zip(pair_halfedges(triangles, vertex_count))
+        .zip(twins)
         .filter_map(|(h, twin)| {
             let vertices = [origin(triangles, h), target(triangles, h)];
             let is_shared = !matches!(twin, BOUNDARY | NON_MANIFOLD)
@@ -184,6 +203,7 @@ fn shared_edges(triangles: &[[u32; 3]], vertex_count: usize) -> Vec<SharedEdge> 
             })
         })
         .collect();
+    proceed_unless(interrupted)?;
     edges.sort_unstable_by_key(|e| e.vertices);
-    edges
+    Ok(edges)
 }

@@ -125,7 +125,9 @@ pub(crate) fn extend_with_slope(
     values[domain.patch_count..].copy_from_slice(around_values);
     let operator = Operator::new(&domain, Order::Two);
     let (matrix, right_side) = operator.normal_equations(&values, interrupted)?;
-    solver.solve(matrix, &right_side)
+    let solution = solver.solve(matrix, &right_side)?;
+    give_back(domain, interrupted)?;
+    Ok(solution)
 }
 
 /// The energy of order two or three as a quadratic form, applied to sparse vectors.

@@ -1,12 +1,15 @@
 //! One hole cut out of the mesh: its rim, the polygon to triangulate, and the triangles round it.
 
 use crate::boundary::loops::BoundaryLoop;
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result, proceed_every, proceed_unless};
 use crate::math::{Vec3, cross_normal, unit};
 use crate::mesh::connectivity::target;
 use crate::mesh::rings::{Reach, collect_rings};
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::{HoleShape, Surroundings};
+
+/// Vertices or triangles that are numbered between two questions whether to stop: about a millisecond's work.
+const VERTICES_PER_CHECK: usize = 8192;
 
 /// How much of the mesh round a hole a method reads.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -182,7 +185,8 @@ impl Hole {
         proceed_unless(interrupted)?;
         let mut band = Band::default();
         let mut local = Vec::with_capacity(rings.levels.len());
-        for &(v, level) in &rings.levels {
+        for (i, &(v, level)) in rings.levels.iter().enumerate() {
+            proceed_every(VERTICES_PER_CHECK, i, interrupted)?;
             local.push(match self.rim_index.get(v) {
                 Some(i) => (v, i),
                 None => {
@@ -194,12 +198,14 @@ impl Hole {
                 }
             });
         }
+        proceed_unless(interrupted)?;
         let local = LocalIndex::new(local);
-        band.surroundings.triangles = rings
-            .faces
-            .iter()
-            .map(|&(f, _)| mesh.triangles()[f as usize].map(|v| local.get(v).unwrap_or(0)))
-            .collect();
+        for (i, &(f, _)) in rings.faces.iter().enumerate() {
+            proceed_every(VERTICES_PER_CHECK, i, interrupted)?;
+            let corners = mesh.triangles()[f as usize];
+            let triangle = corners.map(|v| local.get(v).unwrap_or(0));
+            band.surroundings.triangles.push(triangle);
+        }
         Ok(band)
     }
 

@@ -120,7 +120,7 @@ impl<'a> Auto<'a> {
     ) -> Result<PatchSurface> {
         let lengths = &self.hole.edge_lengths;
         let step = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
-        let band = Band::new(self.hole);
+        let band = Band::new(self.hole, self.interrupted)?;
         let mut samples = SampledBand::new(band, self.hole, step, self.options.auto.jets)
             .stopped_by(self.interrupted);
         staircase.check_interruption()?;
@@ -165,7 +165,7 @@ impl<'a> Auto<'a> {
             surface: surface.as_ref(),
             step,
             tip,
-            joins_with_slope: candidate == Candidate::CubicSmoothed && !is_noisy,
+            joins_with_slope: candidate == Candidate::CubicSmoothed && !is_noisy && !is_flat,
             interrupted: self.interrupted,
         };
         let faired = staircase.patch(Method::FairC1)?;
@@ -443,7 +443,7 @@ impl Marcher<'_> {
         Ok(())
     }
 
-    /// Adds to the interior what the rim is off the surface, fading inwards.
+    /// Adds to the interior what the rim is off the surface, extended inwards.
     fn blend(&self, patch: &mut PatchSurface, limit: f64) -> Result<()> {
         let rim_count = patch.rim_count;
         if patch.points.len() == rim_count {

@@ -79,6 +79,33 @@ fn gaps_in_flat_faces_are_flat_though_the_face_bends_further_out() {
     assert!(chosen != Candidate::Plane && highest > 1e-6, "{highest}");
 }
 
+/// The face ends in rubble, which reaches the rim in one place: the patch goes no further off the plane than the rim.
+#[test]
+fn gaps_in_flat_faces_beside_rubble_are_flat() {
+    let rubble = |x: f64, y: f64| 0.1 * (1.2 * x).sin() * (1.1 * y).sin();
+    let height = |x: f64, y: f64| {
+        let is_face = (x - 50.0).hypot(y - 50.0) < 39.5 && y < 80.0;
+        if is_face { 0.0 } else { rubble(x, y) }
+    };
+    let arrays = fixtures::sheet(100, height).cut(|c| (c[0] - 50.0).hypot(c[1] - 50.0) < 36.0);
+    let filled = fill(&arrays, &all_but_the_largest(), &with_method(Method::Auto));
+    let hole = filled.report.holes.iter().find(|h| h.method.is_some());
+    let prediction = hole.unwrap().prediction.as_ref().unwrap();
+    assert!(
+        prediction.is_flat && prediction.noise > 0.005,
+        "{prediction:?}"
+    );
+    let farthest = |points: &[Vec3]| points.iter().map(|p| p.z.abs()).fold(0.0, f64::max);
+    let rims = filled.boundary.loops.iter().zip(&filled.report.holes);
+    let rim: Vec<Vec3> = rims
+        .filter(|(_, hole)| hole.method.is_some())
+        .flat_map(|(l, _)| &l.vertices)
+        .map(|&v| filled.after.points()[v as usize])
+        .collect();
+    let (inside, at_rim) = (farthest(filled.new_points()), farthest(&rim));
+    assert!(inside <= at_rim, "{inside} {at_rim}");
+}
+
 #[test]
 fn caps_are_no_tips() {
     let arrays = fixtures::sphere(16).cut(|c| c[2] > 0.3);
@@ -136,7 +163,8 @@ fn noise_is_measured_and_not_continued() {
     assert!(mean < 0.02, "{mean}");
 }
 
-/// A wide hole in a dish with three lobes and ripples: what they would be in its middle nobody can know, but at its rim they go on.
+/// A wide hole in a dish with three lobes and ripples: what these are in its middle nobody can know, but they go on at its
+/// rim.
 #[test]
 fn ripples_do_not_mislead_and_go_on_at_the_rim() {
     let dish = |x: f64, y: f64| {

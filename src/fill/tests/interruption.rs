@@ -13,7 +13,7 @@ const LONGEST_GAP: f64 = 0.05;
 
 /// A band round a hole of `edges` edges with five lobes.
 fn wide_rim(edges: usize) -> Arrays {
-    fixtures::cylinder(edges, 3).mapped(|[x, y, z]| {
+    fixtures::cylinder(edges, 10).mapped(|[x, y, z]| {
         let angle = y.atan2(x);
         let theta = 1.0 + 0.15 * (5.0 * angle).cos() + z;
         [

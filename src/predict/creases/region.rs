@@ -76,7 +76,7 @@ pub(crate) fn fit_regions(
 ) -> Result<Vec<RegionSurface>> {
     let fit = |faces: &Vec<u32>| {
         proceed_unless(interrupted)?;
-        let band = Band::new(&region_shape(hole, faces));
+        let band = Band::new(&region_shape(hole, faces), interrupted)?;
         let mut samples = SampledBand::new(band, hole, step, true).stopped_by(interrupted);
         let is_noisy = samples.is_noisy();
         let candidates: Vec<Candidate> = Candidate::ALL

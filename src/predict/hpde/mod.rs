@@ -162,7 +162,7 @@ fn read_rim(
         HpdeTangents::Chord => None,
         HpdeTangents::Jet => {
             proceed_unless(interrupted)?;
-            let band = Band::new(&seen);
+            let band = Band::new(&seen, interrupted)?;
             Some(band.interpolating_normals(seen.points.len(), interrupted)?)
         }
     };

@@ -45,7 +45,7 @@ impl<'a> Outside<'a> {
             .collect();
         edges.sort_unstable();
         proceed_unless(interrupted)?;
-        let band = Band::new(hole);
+        let band = Band::new(hole, interrupted)?;
         let mut normals = band.triangle_normals.clone();
         // Those of triangles would lean to one side at the rim.
         let at_rim = band.interpolating_normals(hole.points.len(), interrupted)?;

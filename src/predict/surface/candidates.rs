@@ -142,7 +142,7 @@ impl Candidate {
         self.most_samples()[0]
     }
 
-    /// Fits the surface to the vertices, smoothed where there is noise: that is what is scored.
+    /// Fits the surface to the vertices, which robust candidates smooth where there is noise: that is what is scored.
     pub(crate) fn fit(
         self,
         samples: &mut SampledBand,
@@ -161,13 +161,15 @@ impl Candidate {
         vertices: &[u32],
         rings: Option<usize>,
     ) -> Option<Box<dyn Implicit>> {
-        let sample = |&v: &u32| match rings {
-            Some(rings) => samples.smoothed_sample(v, rings),
-            None => samples.sample(v),
-        };
-        let chosen: Vec<Sample> = vertices.iter().map(sample).collect();
-        if samples.is_stopped() {
-            return None;
+        let mut chosen = Vec::with_capacity(vertices.len());
+        for &v in vertices {
+            if samples.is_stopped() {
+                return None;
+            }
+            chosen.push(match rings {
+                Some(rings) => samples.smoothed_sample(v, rings),
+                None => samples.sample(v),
+            });
         }
         self.fit_samples(&chosen)
     }
@@ -223,8 +225,8 @@ mod tests {
     use super::*;
     use crate::math::Vec3;
 
-    /// The surroundings of a hole of 1 to `flatness` in a paraboloid that rises by a twentieth of the hole's length, with
-    /// ripples of this height, five edges long.
+    /// The surroundings of a round hole in a paraboloid that rises by a twentieth of the hole's width, with ripples of
+    /// this height, five edges long; then all is flattened by the factor along one axis.
     fn rippled(around: u32, ripple: f64, phase: f64, flatness: f64) -> SampledBand<'static> {
         let radius = f64::from(around) / 6.0;
         let mut shape = rings_around(around, |x, y| {
@@ -235,7 +237,7 @@ mod tests {
         for p in shape.points.iter_mut().chain(around) {
             p.y *= flatness;
         }
-        SampledBand::new(Band::new(&shape), &shape, 1.0, true)
+        SampledBand::new(Band::new(&shape, &|| false).unwrap(), &shape, 1.0, true)
     }
 
     /// How far off the surface is in the middle, over eight phases of the ripples.
@@ -274,6 +276,8 @@ mod tests {
             (198, 0.05, 1.0, None),
             // Nothing to smooth.
             (400, 0.0, 1.0, None),
+            // Narrow.
+            (400, 0.1, 0.1, Some(7)),
             // A slit.
             (400, 0.1, 0.03, None),
         ] {

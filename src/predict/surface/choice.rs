@@ -217,7 +217,7 @@ mod tests {
     /// Rings round the hole of a paraboloid of this steepness.
     fn sampled(steepness: f64) -> SampledBand<'static> {
         let hole = rings_around(24, |x, y| steepness * (x * x + y * y));
-        SampledBand::new(Band::new(&hole), &hole, 1.0, true)
+        SampledBand::new(Band::new(&hole, &|| false).unwrap(), &hole, 1.0, true)
     }
 
     #[test]

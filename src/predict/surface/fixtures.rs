@@ -101,7 +101,7 @@ pub(crate) fn deviation(fitted: &impl Implicit, surface: Parametric) -> (f64, f6
     deviations.fold((0.0, 0.0), |a, b| (a.0.max(b.0), a.1.max(b.1)))
 }
 
-/// The rings of a surface with this height over the plane, round a round hole of `around` edges of unit length.
+/// The rings of a surface with this height over the plane, round a round hole of `around` edges 1.05 long.
 pub(crate) fn rings_around(around: u32, height: impl Fn(f64, f64) -> f64) -> HoleShape {
     let point = |ring: u32, k: u32| {
         let radius = f64::from(around) / 6.0 + f64::from(ring);

@@ -11,7 +11,7 @@
 //! A fit costs `O(k)` for `k` neighbours, some twenty, and a 5x5 or 6x6 eigenvalue problem. Not guaranteed: that
 //! the fitted normal is better than that of the triangles where the surface has a crease.
 
-use crate::error::{Result, proceed_every};
+use crate::error::{Result, proceed_every, proceed_unless};
 use crate::math::{Vec3, unit};
 use crate::patch::HoleShape;
 use nalgebra::{SMatrix, SVector, SymmetricEigen};
@@ -40,6 +40,9 @@ const NOISE_PROBES: usize = 50;
 /// 1.5³ times as much as over two, in squares by this factor. Noise does not grow.
 const SQUARED_GROWTH: f64 = 11.390625;
 
+/// Triangles or vertices that are read between two questions whether to stop: about a millisecond's work.
+const TRIANGLES_PER_CHECK: usize = 8192;
+
 /// The known surface round a hole as vertices with neighbours.
 pub(crate) struct Band {
     /// Positions: rim vertices, then those of the surroundings.
@@ -64,42 +67,68 @@ pub(crate) struct Smoothed {
 }
 
 impl Band {
-    /// Reads the surroundings of a hole. `O(n)` for `n` triangles in them, but for sorting.
-    pub(crate) fn new(hole: &HoleShape) -> Self {
+    /// Reads the surroundings of a hole. `O(n)` for `n` triangles in them.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Cancelled`] when `interrupted` returns true.
+    pub(crate) fn new(hole: &HoleShape, interrupted: &dyn Fn() -> bool) -> Result<Self> {
         let rim_count = hole.points.len();
         let mut points = hole.points.clone();
         points.extend_from_slice(&hole.surroundings.points);
         let mut levels = vec![0; rim_count];
         levels.extend_from_slice(&hole.surroundings.levels);
         let mut triangle_normals = vec![Vec3::zeros(); points.len()];
-        let mut edges: Vec<(u32, u32)> = Vec::with_capacity(6 * hole.surroundings.triangles.len());
-        for t in &hole.surroundings.triangles {
+        let triangles = &hole.surroundings.triangles;
+        let mut starts = vec![0_u32; points.len() + 1];
+        for (i, t) in triangles.iter().enumerate() {
+            proceed_every(TRIANGLES_PER_CHECK, i, interrupted)?;
             let p = t.map(|v| points[v as usize]);
             let normal = unit((p[1] - p[0]).cross(&(p[2] - p[0])));
             for k in 0..3 {
-                let (a, b) = (t[k], t[(k + 1) % 3]);
-                edges.extend([(a, b), (b, a)]);
+                let a = t[k];
+                starts[a as usize + 1] += 2;
                 let angle = (p[(k + 1) % 3] - p[k]).angle(&(p[(k + 2) % 3] - p[k]));
                 triangle_normals[a as usize] += angle * normal;
             }
         }
         triangle_normals.iter_mut().for_each(|n| *n = unit(*n));
-        edges.sort_unstable();
-        edges.dedup();
-        let mut neighbor_starts = vec![0_u32; points.len() + 1];
-        for &(a, _) in &edges {
-            neighbor_starts[a as usize + 1] += 1;
-        }
+        proceed_unless(interrupted)?;
         for v in 0..points.len() {
-            neighbor_starts[v + 1] += neighbor_starts[v];
+            starts[v + 1] += starts[v];
         }
-        Self {
+        // The two other corners of each triangle at each vertex: most neighbours occur twice.
+        let mut places = starts.clone();
+        let mut corners = vec![0_u32; 6 * triangles.len()];
+        for (i, t) in triangles.iter().enumerate() {
+            proceed_every(TRIANGLES_PER_CHECK, i, interrupted)?;
+            for k in 0..3 {
+                let place = &mut places[t[k] as usize];
+                let at = *place as usize;
+                (corners[at], corners[at + 1]) = (t[(k + 1) % 3], t[(k + 2) % 3]);
+                *place += 2;
+            }
+        }
+        let mut neighbor_starts = vec![0_u32; points.len() + 1];
+        let mut neighbors = Vec::with_capacity(corners.len() / 2);
+        for v in 0..points.len() {
+            proceed_every(TRIANGLES_PER_CHECK, v, interrupted)?;
+            let row = &mut corners[starts[v] as usize..starts[v + 1] as usize];
+            row.sort_unstable();
+            for (i, &u) in row.iter().enumerate() {
+                if i == 0 || u != row[i - 1] {
+                    neighbors.push(u);
+                }
+            }
+            neighbor_starts[v + 1] = neighbors.len() as u32;
+        }
+        proceed_unless(interrupted)?;
+        Ok(Self {
             points,
             levels,
             triangle_normals,
             neighbor_starts,
-            neighbors: edges.into_iter().map(|(_, b)| b).collect(),
-        }
+            neighbors,
+        })
     }
 
     /// The vertices whose level is in `levels`, in ascending order.

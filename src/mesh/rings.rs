@@ -2,8 +2,11 @@
 
 use super::connectivity::{DEGENERATE, next, origin, previous};
 use super::trimesh::TriMesh;
-use crate::error::{Result, proceed_unless};
+use crate::error::{Result, proceed_every, proceed_unless};
 use crate::math::segments::Segments;
+
+/// Distances to the rim that are measured between two questions whether to stop: about a millisecond's work.
+const DISTANCES_PER_CHECK: usize = 1024;
 
 /// How far the rings round a rim go.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,7 +85,7 @@ pub(crate) struct Rings {
 /// search among the rim's edges for each vertex.
 ///
 /// # Errors
-/// `Cancelled` when `interrupted`, which is asked at each ring, returns true.
+/// `Cancelled` when `interrupted` returns true.
 pub(crate) fn collect_rings(
     mesh: &TriMesh,
     rim_halfedges: &[u32],
@@ -107,7 +110,15 @@ pub(crate) fn collect_rings(
         if ring >= reach.rings && reach.distance > 0.0 {
             let rim_edges = rim_edges.get_or_insert_with(|| edges(mesh, rim_halfedges));
             let limit = reach.distance * reach.distance;
-            frontier.retain(|&(v, _)| rim_edges.distance_sq(&mesh.point(v)) < limit);
+            proceed_unless(interrupted)?;
+            let mut near = Vec::with_capacity(frontier.len());
+            for (i, &(v, h)) in frontier.iter().enumerate() {
+                proceed_every(DISTANCES_PER_CHECK, i, interrupted)?;
+                if rim_edges.distance_sq(&mesh.point(v)) < limit {
+                    near.push((v, h));
+                }
+            }
+            frontier = near;
         } else if ring >= reach.rings {
             break;
         }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 /// A band round a hole of 20,000 edges with five lobes.
 fn wide() -> Arrays {
-    fixtures::cylinder(20_000, 3).mapped(|[x, y, z]| {
+    fixtures::cylinder(20_000, 10).mapped(|[x, y, z]| {
         let angle = y.atan2(x);
         let theta = 1.0 + 0.15 * (5.0 * angle).cos() + z;
         let (sin, cos) = theta.sin_cos();

@@ -116,7 +116,7 @@ impl<'a> HeightField<'a> {
     ) -> Result<Self> {
         let loops = rim_loops(hole)?;
         proceed_unless(interrupted)?;
-        let vicinity = Vicinity::new(hole, surroundings, options.beta)?;
+        let vicinity = Vicinity::new(hole, surroundings, options.beta, interrupted)?;
         proceed_unless(interrupted)?;
         let rim: Vec<Vec3> = hole
             .polygon

@@ -1,9 +1,12 @@
 //! The known points near a rim, through which the height field is fitted.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind, Result, proceed_every};
 use crate::math::Vec3;
 use crate::math::segments::Segments;
 use crate::patch::{HoleShape, Surroundings};
+
+/// Distances to the rim that are measured between two questions whether to stop: about a millisecond's work.
+const DISTANCES_PER_CHECK: usize = 1024;
 
 /// The points nearer to the rim than a number of sampling steps, and the triangles between them.
 pub(crate) struct Vicinity {
@@ -22,8 +25,14 @@ impl Vicinity {
     /// so far.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] when the triangles at the rim have no area.
-    pub(crate) fn new(hole: &HoleShape, surroundings: &Surroundings, beta: f64) -> Result<Self> {
+    /// [`ErrorKind::Geometry`] when the triangles at the rim have no area; [`ErrorKind::Cancelled`] when `interrupted`
+    /// returns true.
+    pub(crate) fn new(
+        hole: &HoleShape,
+        surroundings: &Surroundings,
+        beta: f64,
+        interrupted: &dyn Fn() -> bool,
+    ) -> Result<Self> {
         let step = hole.sampling_step();
         if !(step.is_finite() && step > 0.0) {
             let message = "the triangles at the rim have no area to take a sampling step from";
@@ -44,6 +53,7 @@ impl Vicinity {
         };
         let mut place: Vec<Option<u32>> = vicinity.vertices.iter().copied().map(Some).collect();
         for (i, p) in surroundings.points.iter().enumerate() {
+            proceed_every(DISTANCES_PER_CHECK, i, interrupted)?;
             let is_near = rim.distance_sq(p) < limit;
             place.push(is_near.then_some(vicinity.points.len() as u32));
             if is_near {

@@ -141,11 +141,10 @@ impl<'a> Facets<'a> {
         let neighbors = self.neighbors(interrupted)?;
         for _ in 0..ROUNDS {
             let mut filtered = Vec::with_capacity(self.normals.len());
-            for f in 0..self.normals.len() {
+            for (f, (&own, near)) in self.normals.iter().zip(&neighbors).enumerate() {
                 proceed_every(FACES_PER_CHECK, f, interrupted)?;
-                let own = self.normals[f];
                 let mut sum = self.areas[f] * own;
-                for &g in &neighbors[f] {
+                for &g in near {
                     let other = self.normals[g as usize];
                     let unlike = (own - other).norm_squared() / (2.0 * width * width);
                     sum += self.areas[g as usize] * (-unlike).exp() * other;

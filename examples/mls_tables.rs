@@ -290,7 +290,7 @@ fn from_points(page: &mut String, models: &Path) -> Result<()> {
             let moved = moved(&case.mesh, noise);
             let start = processor_time();
             let (mesh, report) =
-                mesh_from_points(PointCloud::new(moved), &PointOptions::default(), &|| false)?;
+                mesh_from_points(PointCloud::new(moved), &PointOptions::default(), None)?;
             let seconds = (processor_time() - start).as_secs_f64();
             let selection = Selection {
                 keep_largest: open,

@@ -1,7 +1,6 @@
 //! The one error type that leaves the crate.
 
 use std::fmt;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What went wrong, by cause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,57 +68,6 @@ impl Error {
     #[must_use]
     pub fn message(&self) -> &str {
         &self.message
-    }
-}
-
-/// Ends long work, by `?`, once `interrupted` says that the caller asked to stop.
-pub(crate) fn proceed_unless(interrupted: &dyn Fn() -> bool) -> Result<()> {
-    if interrupted() {
-        return Err(Error::cancelled());
-    }
-    Ok(())
-}
-
-/// The same at each step that is a multiple of `every`: asking costs more than most steps.
-pub(crate) fn proceed_every(
-    every: usize,
-    step: usize,
-    interrupted: &dyn Fn() -> bool,
-) -> Result<()> {
-    if step.is_multiple_of(every) {
-        proceed_unless(interrupted)?;
-    }
-    Ok(())
-}
-
-/// Whether work on several threads has to stop: asks the caller, and tells all threads of a yes.
-pub(crate) struct StopSign<'a> {
-    interrupted: &'a (dyn Fn() -> bool + Sync),
-    is_set: AtomicBool,
-}
-
-impl<'a> StopSign<'a> {
-    pub(crate) fn new(interrupted: &'a (dyn Fn() -> bool + Sync)) -> Self {
-        Self {
-            interrupted,
-            is_set: AtomicBool::new(false),
-        }
-    }
-
-    /// Whether to stop; asks the caller only when `step` is a multiple of `every`.
-    pub(crate) fn is_set_at(&self, step: usize, every: usize) -> bool {
-        if step.is_multiple_of(every) && (self.interrupted)() {
-            self.is_set.store(true, Ordering::Relaxed);
-        }
-        self.is_set.load(Ordering::Relaxed)
-    }
-
-    /// Asks the caller.
-    ///
-    /// # Errors
-    /// `Cancelled` when the work is to stop.
-    pub(crate) fn proceed(&self) -> Result<()> {
-        proceed_unless(&|| self.is_set_at(0, 1))
     }
 }
 

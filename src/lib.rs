@@ -29,6 +29,7 @@ mod fill;
 #[path = "../tests/common/meshes.rs"]
 mod fixtures;
 pub mod io;
+mod job;
 mod math;
 mod mesh;
 mod patch;

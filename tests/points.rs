@@ -290,7 +290,7 @@ fn reconstruct_and_fill(data: &MeshData, noise: f64, keep: usize) -> (TriMesh, u
     let mean = data.triangles.iter().map(spacing).sum::<f64>() / data.triangles.len() as f64;
     let arrays = Arrays::new(data.positions.clone(), Vec::new()).jittered(noise * mean, 1);
     let cloud = PointCloud::new(arrays.positions);
-    let (mut mesh, report) = mesh_from_points(cloud, &PointOptions::default(), &|| false).unwrap();
+    let (mut mesh, report) = mesh_from_points(cloud, &PointOptions::default(), None).unwrap();
     assert!(is_oriented_manifold(mesh.triangles()));
     assert!(report.used * 100 >= report.points * 99, "{report:?}");
     assert_eq!(report.pieces, 1);

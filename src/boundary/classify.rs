@@ -1,6 +1,7 @@
 //! What kind of boundary a loop is: a hole, a hole that touches another, a loose island, an outer rim.
 
 use super::loops::BoundaryLoop;
+use crate::job::Job;
 use crate::math::aabb::Aabb;
 use crate::math::box_tree::BoxTree;
 use crate::math::{Vec3, cross_normal, unit};
@@ -152,7 +153,8 @@ impl Hosts {
             .collect();
         Self {
             ids: hosts().map(|l| l.id).collect(),
-            tree: BoxTree::build(boxes.len(), |i| boxes[i]),
+            tree: BoxTree::build(boxes.len(), |i| boxes[i], &Job::unlimited())
+                .expect("nothing stops it"),
             boxes,
         }
     }

@@ -11,7 +11,8 @@
 //! `O(n log n)` for `n` known triangles.
 
 use super::facets::{Facets, SharedEdge};
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use crate::math::{Vec3, unit};
 use crate::patch::HoleShape;
 
@@ -60,20 +61,20 @@ pub(crate) struct CreaseEnd {
 ///
 /// # Errors
 /// [`ErrorKind::Geometry`] when there are creases that cannot be used, with the reason; [`ErrorKind::Cancelled`].
-pub(crate) fn detect(hole: &HoleShape, interrupted: &dyn Fn() -> bool) -> Result<Option<Regions>> {
-    proceed_unless(interrupted)?;
+pub(crate) fn detect(hole: &HoleShape, job: &Job<'_>) -> Result<Option<Regions>> {
+    job.ask()?;
     let mut facets = Facets::new(hole);
     // Filtering averages: no two of these will ever make the angle of a crease.
     if facets.turn_less_than(LEAST_ANGLE / 2.0) {
         return Ok(None);
     }
-    proceed_unless(interrupted)?;
-    facets.find_edges(interrupted)?;
-    facets.filter_normals(interrupted)?;
+    job.ask()?;
+    facets.find_edges(job)?;
+    facets.filter_normals(job)?;
     let threshold = threshold(&facets);
-    proceed_unless(interrupted)?;
+    job.ask()?;
     let mut labels = Labels::new(&facets, threshold);
-    proceed_unless(interrupted)?;
+    job.ask()?;
     let at_rim = rim_faces(hole);
     labels.absorb_small_regions(&facets, &at_rim);
     if labels.count_at(at_rim.iter().flatten()) < 2 {

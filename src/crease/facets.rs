@@ -5,7 +5,8 @@
 //! normals are alike and so keeps creases. The width of "alike" follows from the normals themselves: a clean mesh is
 //! left as it is.
 
-use crate::error::{Result, proceed_every, proceed_unless};
+use crate::error::Result;
+use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
 use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD, origin, target};
 use crate::mesh::pairing::pair_halfedges;
@@ -18,9 +19,6 @@ const ROUNDS: usize = 6;
 /// that it would average over creases.
 const WIDTH_FACTOR: f64 = 2.0;
 const MOST_WIDTH: f64 = 0.35;
-
-/// Triangles that are read between two questions whether to stop: about a millisecond's work.
-const FACES_PER_CHECK: usize = 4096;
 
 /// An edge between two known triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,10 +67,10 @@ impl<'a> Facets<'a> {
     /// Finds out which triangles meet in which edge.
     ///
     /// # Errors
-    /// `Cancelled` when `interrupted` returns true.
-    pub(super) fn find_edges(&mut self, interrupted: &dyn Fn() -> bool) -> Result<()> {
+    /// `Cancelled` when the job is stopped.
+    pub(super) fn find_edges(&mut self, job: &Job<'_>) -> Result<()> {
         let vertex_count = self.hole.points.len() + self.hole.surroundings.points.len();
-        self.edges = shared_edges(self.triangles(), vertex_count, interrupted)?;
+        self.edges = shared_edges(self.triangles(), vertex_count, job)?;
         Ok(())
     }
 
@@ -121,9 +119,9 @@ impl<'a> Facets<'a> {
     /// Filters noise from the normals.
     ///
     /// # Errors
-    /// `Cancelled` when `interrupted` returns true.
-    pub(super) fn filter_normals(&mut self, interrupted: &dyn Fn() -> bool) -> Result<()> {
-        proceed_unless(interrupted)?;
+    /// `Cancelled` when the job is stopped.
+    pub(super) fn filter_normals(&mut self, job: &Job<'_>) -> Result<()> {
+        job.ask()?;
         let mut differences: Vec<f64> = self
             .edges
             .iter()
@@ -138,11 +136,11 @@ impl<'a> Facets<'a> {
         if width <= 0.0 {
             return Ok(());
         }
-        let neighbors = self.neighbors(interrupted)?;
+        let neighbors = self.neighbors(job)?;
         for _ in 0..ROUNDS {
             let mut filtered = Vec::with_capacity(self.normals.len());
             for (f, (&own, near)) in self.normals.iter().zip(&neighbors).enumerate() {
-                proceed_every(FACES_PER_CHECK, f, interrupted)?;
+                job.tick(10)?;
                 let mut sum = self.areas[f] * own;
                 for &g in near {
                     let other = self.normals[g as usize];
@@ -157,17 +155,17 @@ impl<'a> Facets<'a> {
     }
 
     /// The triangles that share a vertex with each triangle.
-    fn neighbors(&self, interrupted: &dyn Fn() -> bool) -> Result<Vec<Vec<u32>>> {
+    fn neighbors(&self, job: &Job<'_>) -> Result<Vec<Vec<u32>>> {
         let count = self.hole.points.len() + self.hole.surroundings.points.len();
         let mut at_vertex: Vec<Vec<u32>> = vec![Vec::new(); count];
         for (f, t) in (0_u32..).zip(self.triangles()) {
-            proceed_every(FACES_PER_CHECK, f as usize, interrupted)?;
+            job.tick(10)?;
             for &v in t {
                 at_vertex[v as usize].push(f);
             }
         }
         let around = |(f, t): (u32, &[u32; 3])| {
-            proceed_every(FACES_PER_CHECK, f as usize, interrupted)?;
+            job.tick(10)?;
             let mut near: Vec<u32> = t
                 .iter()
                 .flat_map(|&v| at_vertex[v as usize].iter().copied())
@@ -185,10 +183,10 @@ impl<'a> Facets<'a> {
 fn shared_edges(
     triangles: &[[u32; 3]],
     vertex_count: usize,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<Vec<SharedEdge>> {
     let twins = pair_halfedges(triangles, vertex_count);
-    proceed_unless(interrupted)?;
+    job.ask()?;
     let mut edges: Vec<SharedEdge> = (0_u32..)
         .zip(twins)
         .filter_map(|(h, twin)| {
@@ -202,7 +200,7 @@ fn shared_edges(
             })
         })
         .collect();
-    proceed_unless(interrupted)?;
+    job.ask()?;
     edges.sort_unstable_by_key(|e| e.vertices);
     Ok(edges)
 }

@@ -19,7 +19,8 @@
 //! Not guaranteed: that the result has no self-intersection, nor that it stays near the rim.
 
 use super::laplacian::{Domain, Entry, Weights};
-use crate::error::{Result, proceed_every, proceed_unless};
+use crate::error::Result;
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::math::sparse::{SpdSolver, SymmetricMatrix};
 use crate::patch::{PatchSurface, Surroundings};
@@ -35,8 +36,6 @@ pub(crate) enum Order {
     Three = 3,
 }
 
-/// Columns assembled between two questions whether to go on.
-const COLUMNS_PER_CHECK: usize = 1 << 11;
 /// Entries of a column from the diagonal down, with two rings round a vertex of degree six.
 const USUAL_COLUMN: usize = 10;
 /// Entries of a row of the Laplacian at a vertex of degree six.
@@ -62,28 +61,22 @@ pub(crate) fn fair(
     if interior == 0 {
         return Ok(());
     }
-    let interrupted = solver.interrupted();
-    let domain = Domain::new(
-        surface,
-        surroundings,
-        order as u32 - 1,
-        weights,
-        interrupted,
-    )?;
+    let job = solver.job();
+    let domain = Domain::new(surface, surroundings, order as u32 - 1, weights, job)?;
     let (matrix, right_side) = match order {
-        Order::One => membrane_equations(&domain, &domain.points[..domain.rim_count], interrupted)?,
-        _ => Operator::new(&domain, order).normal_equations(&domain.points, interrupted)?,
+        Order::One => membrane_equations(&domain, &domain.points[..domain.rim_count], job)?,
+        _ => Operator::new(&domain, order).normal_equations(&domain.points, job)?,
     };
     let solution = solver.solve(matrix, &right_side)?;
-    give_back(domain, interrupted)?;
+    give_back(domain, job)?;
     surface.points[surface.rim_count..].copy_from_slice(&solution);
     Ok(())
 }
 
 /// Gives back the memory of a domain, which takes milliseconds when it is large, and asks whether to stop.
-fn give_back(domain: Domain, interrupted: &dyn Fn() -> bool) -> Result<()> {
+fn give_back(domain: Domain, job: &Job<'_>) -> Result<()> {
     drop(domain);
-    proceed_unless(interrupted)
+    job.ask()
 }
 
 /// Extends values given at the rim to the interior vertices, three at a time, by the harmonic function of
@@ -96,12 +89,12 @@ pub(crate) fn extend_from_rim(
     rim_values: &[Vec3],
     solver: &mut SpdSolver<'_>,
 ) -> Result<Vec<Vec3>> {
-    let interrupted = solver.interrupted();
+    let job = solver.job();
     let around = Surroundings::default();
-    let domain = Domain::new(surface, &around, 0, Weights::Uniform, interrupted)?;
-    let (matrix, right_side) = membrane_equations(&domain, rim_values, interrupted)?;
+    let domain = Domain::new(surface, &around, 0, Weights::Uniform, job)?;
+    let (matrix, right_side) = membrane_equations(&domain, rim_values, job)?;
     let solution = solver.solve(matrix, &right_side)?;
-    give_back(domain, interrupted)?;
+    give_back(domain, job)?;
     Ok(solution)
 }
 
@@ -118,15 +111,15 @@ pub(crate) fn extend_with_slope(
     around_values: &[Vec3],
     solver: &mut SpdSolver<'_>,
 ) -> Result<Vec<Vec3>> {
-    let interrupted = solver.interrupted();
-    let domain = Domain::new(surface, surroundings, 1, Weights::Cotangent, interrupted)?;
+    let job = solver.job();
+    let domain = Domain::new(surface, surroundings, 1, Weights::Cotangent, job)?;
     let mut values = vec![Vec3::zeros(); domain.vertex_count()];
     values[..domain.rim_count].copy_from_slice(rim_values);
     values[domain.patch_count..].copy_from_slice(around_values);
     let operator = Operator::new(&domain, Order::Two);
-    let (matrix, right_side) = operator.normal_equations(&values, interrupted)?;
+    let (matrix, right_side) = operator.normal_equations(&values, job)?;
     let solution = solver.solve(matrix, &right_side)?;
-    give_back(domain, interrupted)?;
+    give_back(domain, job)?;
     Ok(solution)
 }
 
@@ -201,7 +194,7 @@ impl<'a> Operator<'a> {
     fn normal_equations(
         &self,
         values: &[Vec3],
-        interrupted: &dyn Fn() -> bool,
+        job: &Job<'_>,
     ) -> Result<(SymmetricMatrix, Vec<Vec3>)> {
         let domain = self.domain;
         let mut fixed = vec![Vec3::zeros(); domain.vertex_count()];
@@ -225,7 +218,7 @@ impl<'a> Operator<'a> {
         matrix.column_starts.push(0);
         let mut right_side = Vec::with_capacity(interior);
         for v in domain.rim_count..domain.patch_count {
-            proceed_every(COLUMNS_PER_CHECK, v, interrupted)?;
+            job.tick(100)?;
             self.weighted_column(v, &mut scratch);
             let Scratch { b, c, .. } = &mut scratch;
             c.clear();
@@ -286,7 +279,7 @@ impl<'a> Operator<'a> {
 fn membrane_equations(
     domain: &Domain,
     rim_values: &[Vec3],
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<(SymmetricMatrix, Vec<Vec3>)> {
     let mut matrix = SymmetricMatrix {
         column_starts: vec![0],
@@ -294,7 +287,7 @@ fn membrane_equations(
     };
     let mut right_side = Vec::with_capacity(domain.patch_count - domain.rim_count);
     for v in domain.rim_count..domain.patch_count {
-        proceed_every(COLUMNS_PER_CHECK, v, interrupted)?;
+        job.tick(10)?;
         let diagonal_at = matrix.values.len();
         matrix.rows.push((v - domain.rim_count) as u32);
         matrix.values.push(0.0);

@@ -6,7 +6,8 @@
 //! M. Desbrun, P. Schröder, A. H. Barr, "Discrete differential-geometry operators for triangulated 2-manifolds",
 //! VisMath 2002, section 3.3.
 
-use crate::error::{Result, proceed_unless};
+use crate::error::Result;
+use crate::job::Job;
 use crate::math::{Vec3, cross_normal};
 use crate::patch::{PatchSurface, Surroundings};
 
@@ -17,9 +18,6 @@ const LARGEST_COTANGENT: f64 = 100.0;
 const LARGEST_COSINE: f64 = 0.999;
 /// Vertex areas are at least this share of the mean one, so that a sliver does not outweigh everything.
 const SMALLEST_AREA_SHARE: f64 = 1e-3;
-
-/// Triangles or rows assembled between two questions whether to go on.
-const ROWS_PER_CHECK: usize = 1 << 13;
 
 /// Edge weights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,13 +66,13 @@ impl Domain {
     /// Joins the patch to the rings of its surroundings below `ring_count`.
     ///
     /// # Errors
-    /// `Cancelled` when `interrupted`, which is asked from time to time, returns true.
+    /// `Cancelled` when the job is stopped.
     pub(crate) fn new(
         surface: &PatchSurface,
         surroundings: &Surroundings,
         ring_count: u32,
         weights: Weights,
-        interrupted: &dyn Fn() -> bool,
+        job: &Job<'_>,
     ) -> Result<Self> {
         let patch_count = surface.points.len();
         let shift = (patch_count - surface.rim_count) as u32;
@@ -116,7 +114,7 @@ impl Domain {
             triangles,
             levels,
         };
-        domain.assemble(weights, interrupted)?;
+        domain.assemble(weights, job)?;
         Ok(domain)
     }
 
@@ -139,7 +137,7 @@ impl Domain {
         }
     }
 
-    fn assemble(&mut self, weights: Weights, interrupted: &dyn Fn() -> bool) -> Result<()> {
+    fn assemble(&mut self, weights: Weights, job: &Job<'_>) -> Result<()> {
         let count = self.vertex_count();
         let mut starts = vec![0_u32; count + 1];
         for t in &self.triangles {
@@ -153,10 +151,8 @@ impl Domain {
         // Row and half of the weight of each edge, for either direction, by column.
         let mut slots = starts.clone();
         let mut by_column = vec![(0_u32, 0.0); 6 * self.triangles.len()];
-        for (i, t) in self.triangles.iter().enumerate() {
-            if i % ROWS_PER_CHECK == ROWS_PER_CHECK - 1 {
-                proceed_unless(interrupted)?;
-            }
+        for t in &self.triangles {
+            job.tick(3)?;
             let corners = || t.map(|v| &self.points[v as usize]);
             let (cotangents, areas) = match weights {
                 Weights::Uniform | Weights::Umbrella => ([1.0; 3], [0.0; 3]),
@@ -181,9 +177,7 @@ impl Domain {
         };
         let mut half_edges = vec![zero; by_column.len()];
         for column in 0..count {
-            if column % ROWS_PER_CHECK == ROWS_PER_CHECK - 1 {
-                proceed_unless(interrupted)?;
-            }
+            job.tick(3)?;
             for &(row, weight) in &by_column[starts[column] as usize..starts[column + 1] as usize] {
                 let slot = &mut slots[row as usize];
                 half_edges[*slot as usize] = Entry {
@@ -198,9 +192,7 @@ impl Domain {
         self.row_starts.reserve(count + 1);
         self.row_starts.push(0);
         for v in 0..count {
-            if v % ROWS_PER_CHECK == ROWS_PER_CHECK - 1 {
-                proceed_unless(interrupted)?;
-            }
+            job.tick(3)?;
             let row = &half_edges[starts[v] as usize..starts[v + 1] as usize];
             for same in row.chunk_by(|a, b| a.column == b.column) {
                 self.is_complete[v] &= same.len() == 2;

@@ -3,6 +3,7 @@
 use super::kharmonic::{Order, extend_from_rim, fair};
 use super::laplacian::{Domain, Weights};
 use crate::fixtures::{self, Arrays, Noise};
+use crate::job::{Job, UNLIMITED};
 use crate::math::Vec3;
 use crate::math::sparse::SpdSolver;
 use crate::patch::{PatchSurface, Surroundings};
@@ -101,7 +102,14 @@ fn faired(
     weights: Weights,
 ) -> PatchSurface {
     let mut out = surface.clone();
-    fair(&mut out, around, order, weights, &mut SpdSolver::default()).unwrap();
+    fair(
+        &mut out,
+        around,
+        order,
+        weights,
+        &mut SpdSolver::new(&UNLIMITED),
+    )
+    .unwrap();
     assert_eq!(out.triangles, surface.triangles);
     assert_eq!(out.points[..out.rim_count], surface.points[..out.rim_count]);
     out
@@ -186,8 +194,14 @@ fn the_result_has_the_least_energy() {
             for weights in WEIGHTS {
                 let out = faired(&start, &around, order, weights);
                 // The weights are those of the shape before.
-                let domain =
-                    Domain::new(&start, &around, order as u32 - 1, weights, &|| false).unwrap();
+                let domain = Domain::new(
+                    &start,
+                    &around,
+                    order as u32 - 1,
+                    weights,
+                    &Job::unlimited(),
+                )
+                .unwrap();
                 let least = energy(&domain, order, &out.points);
                 assert!(least < energy(&domain, order, &start.points));
                 for seed in 0..20 {
@@ -227,7 +241,7 @@ fn values_extended_from_the_rim_are_means_of_their_neighbours() {
     let rim: Vec<Vec3> = (0..surface.rim_count)
         .map(|_| Vec3::new(noise.signed(), 1.0, 1e6 * noise.signed()))
         .collect();
-    let inside = extend_from_rim(&surface, &rim, &mut SpdSolver::default()).unwrap();
+    let inside = extend_from_rim(&surface, &rim, &mut SpdSolver::new(&UNLIMITED)).unwrap();
     assert_eq!(inside.len(), surface.points.len() - surface.rim_count);
     let values: Vec<Vec3> = rim.iter().chain(&inside).copied().collect();
     for v in surface.rim_count..surface.points.len() {
@@ -266,7 +280,7 @@ fn a_patch_without_interior_is_left_alone() {
             );
         }
     }
-    let mut solver = SpdSolver::default();
+    let mut solver = SpdSolver::new(&UNLIMITED);
     let values = extend_from_rim(&surface, &surface.points, &mut solver).unwrap();
     assert!(values.is_empty());
 }
@@ -278,7 +292,7 @@ fn a_rim_without_surroundings_is_a_membrane_at_worst() {
         for weights in WEIGHTS {
             let start = moved_interior(&surface, 0.2, 3);
             let mut out = start.clone();
-            let mut solver = SpdSolver::default();
+            let mut solver = SpdSolver::new(&UNLIMITED);
             match fair(
                 &mut out,
                 &Surroundings::default(),
@@ -310,7 +324,7 @@ fn collapsed_and_overlapping_triangles_give_finite_points_or_an_error() {
             let mut start = surface.clone();
             start.points[surface.rim_count..].iter_mut().for_each(shape);
             let mut out = start.clone();
-            let mut solver = SpdSolver::default();
+            let mut solver = SpdSolver::new(&UNLIMITED);
             match fair(&mut out, &around, order, Weights::Cotangent, &mut solver) {
                 Ok(()) => assert!(out.points.iter().flatten().all(|c| c.is_finite())),
                 Err(_) => assert_eq!(out, start),
@@ -344,10 +358,10 @@ fn the_umbrella_vectors_of_the_unfolding_vanish() {
             &around,
             order,
             weights,
-            &mut SpdSolver::default(),
+            &mut SpdSolver::new(&UNLIMITED),
         )
         .unwrap();
-        let domain = Domain::new(&surface, &around, 1, weights, &|| false).unwrap();
+        let domain = Domain::new(&surface, &around, 1, weights, &Job::unlimited()).unwrap();
         let mut u = umbrellas(&domain, &domain.points);
         if order == Order::Two {
             u = umbrellas(&domain, &u);

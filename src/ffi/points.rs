@@ -14,8 +14,9 @@ use crate::fill::options::FillOptions;
 use crate::fill::pipeline::thread_pool;
 use crate::fill::progress::{Progress, ProgressCallback, Watch};
 use crate::fill::session::FillSession;
+use crate::job::Job;
 use crate::mesh::trimesh::TriMesh;
-use crate::reconstruct::{PointCloud, PointOptions, PointReport, mesh_from_points};
+use crate::reconstruct::{PointCloud, PointOptions, PointReport, reconstruct};
 
 /// Options of the caller, read.
 struct Given {
@@ -56,7 +57,7 @@ unsafe fn read_point_options(options: *const HolefillPointOptions) -> Result<Giv
 }
 
 /// Makes the mesh, on as many threads and for as long as is allowed.
-fn reconstruct(cloud: PointCloud, given: &Given) -> Result<(TriMesh, PointReport), Failure> {
+fn make(cloud: PointCloud, given: &Given) -> Result<(TriMesh, PointReport), Failure> {
     let pool = thread_pool(&given.limits)?;
     let tell = |progress: Progress| given.callbacks.tell(progress);
     let callback: Option<ProgressCallback<'_>> = match given.callbacks.has_progress() {
@@ -64,8 +65,7 @@ fn reconstruct(cloud: PointCloud, given: &Given) -> Result<(TriMesh, PointReport
         false => None,
     };
     let watch = Watch::new(0, given.limits.time_budget, callback);
-    let interrupted = || watch.is_interrupted();
-    let made = pool.install(|| mesh_from_points(cloud, &given.points, &interrupted));
+    let made = pool.install(|| reconstruct(cloud, &given.points, &Job::new(&watch)));
     Ok(made.map_err(|e| watch.explain(e))?)
 }
 
@@ -124,7 +124,7 @@ pub unsafe extern "C" fn holefill_mesh_from_points(
             }
             color = Some(named);
         }
-        let (built, report) = reconstruct(cloud, &given)?;
+        let (built, report) = make(cloud, &given)?;
         let mut object = MeshObject::new(FillSession::new(built));
         object.attributes[0].extend(color);
         // SAFETY: as above.

@@ -1,15 +1,13 @@
 //! One hole cut out of the mesh: its rim, the polygon to triangulate, and the triangles round it.
 
 use crate::boundary::loops::BoundaryLoop;
-use crate::error::{Error, ErrorKind, Result, proceed_every, proceed_unless};
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
 use crate::mesh::connectivity::target;
 use crate::mesh::rings::{Reach, collect_rings};
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::{HoleShape, Surroundings};
-
-/// Vertices or triangles that are numbered between two questions whether to stop: about a millisecond's work.
-const VERTICES_PER_CHECK: usize = 8192;
 
 /// How much of the mesh round a hole a method reads.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +73,7 @@ impl Hole {
         outer: &BoundaryLoop,
         islands: &[&BoundaryLoop],
         reach: HoleReach,
-        interrupted: &dyn Fn() -> bool,
+        job: &Job<'_>,
     ) -> Result<Self> {
         if outer.edge_count() < 3 {
             return Err(Error::new(
@@ -87,7 +85,7 @@ impl Hole {
         for island in islands {
             polygon.join(mesh, Polygon::of_loop(mesh, island));
         }
-        proceed_unless(interrupted)?;
+        job.ask()?;
         let rim = distinct(&polygon.vertices);
         let rim_index = LocalIndex::new(rim.iter().zip(0..).map(|(&v, i)| (v, i)).collect());
         let polygon_indices: Vec<u32> = polygon
@@ -130,9 +128,9 @@ impl Hole {
             .flat_map(|l| l.halfedges.iter().copied())
             .collect();
         let points: Vec<Vec3> = rim.iter().map(|&v| to_local(v)).collect();
-        proceed_unless(interrupted)?;
+        job.ask()?;
         let joined = joined_rim_vertices(mesh, &rim, &rim_index);
-        proceed_unless(interrupted)?;
+        job.ask()?;
         let mut hole = Self {
             rim,
             outside_faces,
@@ -150,15 +148,13 @@ impl Hole {
             is_in_mesh: true,
         };
         hole.shape.surroundings = hole
-            .band(mesh, Reach::rings(reach.rings.max(1)), interrupted)?
+            .band(mesh, Reach::rings(reach.rings.max(1)), job)?
             .surroundings;
-        proceed_unless(interrupted)?;
+        job.ask()?;
         if reach.steps > 0.0 {
-            hole.shape.surroundings = hole
-                .band(mesh, hole.in_mesh(reach), interrupted)?
-                .surroundings;
+            hole.shape.surroundings = hole.band(mesh, hole.in_mesh(reach), job)?.surroundings;
         }
-        proceed_unless(interrupted)?;
+        job.ask()?;
         hole.shape.edge_lengths = mean_edge_lengths(&hole.shape.points, &hole.shape.surroundings);
         Ok(hole)
     }
@@ -174,19 +170,14 @@ impl Hole {
     /// The triangles of `mesh` round the hole as far as `reach` says.
     ///
     /// # Errors
-    /// [`ErrorKind::Cancelled`] when `interrupted` returns true.
-    pub(crate) fn band(
-        &self,
-        mesh: &TriMesh,
-        reach: Reach,
-        interrupted: &dyn Fn() -> bool,
-    ) -> Result<Band> {
-        let rings = collect_rings(mesh, &self.halfedges, reach, interrupted)?;
-        proceed_unless(interrupted)?;
+    /// [`ErrorKind::Cancelled`] when the job is stopped.
+    pub(crate) fn band(&self, mesh: &TriMesh, reach: Reach, job: &Job<'_>) -> Result<Band> {
+        let rings = collect_rings(mesh, &self.halfedges, reach, job)?;
+        job.ask()?;
         let mut band = Band::default();
         let mut local = Vec::with_capacity(rings.levels.len());
-        for (i, &(v, level)) in rings.levels.iter().enumerate() {
-            proceed_every(VERTICES_PER_CHECK, i, interrupted)?;
+        for &(v, level) in &rings.levels {
+            job.tick(4)?;
             local.push(match self.rim_index.get(v) {
                 Some(i) => (v, i),
                 None => {
@@ -198,10 +189,10 @@ impl Hole {
                 }
             });
         }
-        proceed_unless(interrupted)?;
+        job.ask()?;
         let local = LocalIndex::new(local);
-        for (i, &(f, _)) in rings.faces.iter().enumerate() {
-            proceed_every(VERTICES_PER_CHECK, i, interrupted)?;
+        for &(f, _) in &rings.faces {
+            job.tick(4)?;
             let corners = mesh.triangles()[f as usize];
             let triangle = corners.map(|v| local.get(v).unwrap_or(0));
             band.surroundings.triangles.push(triangle);

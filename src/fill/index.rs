@@ -4,9 +4,10 @@
 //! after it, so that there are few: O(log k) for k appended triangles, each of which is indexed O(log k) times.
 
 use crate::error::Result;
+use crate::job::Job;
 use crate::mesh::trimesh::TriMesh;
 use crate::quality::Surface;
-use crate::quality::self_intersection::{AppendedPatch, SelfIntersections, count_unless};
+use crate::quality::self_intersection::{AppendedPatch, SelfIntersections, count};
 use crate::quality::spatial::FaceIndex;
 use std::ops::Range;
 
@@ -24,25 +25,16 @@ pub(crate) struct MeshIndex {
 }
 
 impl MeshIndex {
-    /// Indexes all triangles, on the current thread pool, unless `interrupted` says to stop.
+    /// Indexes all triangles, on the current thread pool.
     ///
     /// # Errors
-    /// `Cancelled` when it does.
-    pub(crate) fn build_unless(
-        mesh: &TriMesh,
-        interrupted: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Self> {
+    /// `Cancelled` when the job is stopped.
+    pub(crate) fn build(mesh: &TriMesh, job: &Job<'_>) -> Result<Self> {
         let count = mesh.triangles().len();
         Ok(Self::around(
-            FaceIndex::build_unless(surface(mesh, 0..count), interrupted)?,
+            FaceIndex::build(surface(mesh, 0..count), job)?,
             count,
         ))
-    }
-
-    /// Indexes all triangles, on the current thread pool.
-    pub(crate) fn build(mesh: &TriMesh) -> Self {
-        let count = mesh.triangles().len();
-        Self::around(build(mesh, 0..count), count)
     }
 
     fn around(base: FaceIndex, base_count: usize) -> Self {
@@ -64,7 +56,7 @@ impl MeshIndex {
     pub(crate) fn update(&mut self, mesh: &TriMesh) {
         let count = mesh.triangles().len();
         if count < self.base_count {
-            *self = Self::build(mesh);
+            *self = Self::around(build(mesh, 0..count), count);
             return;
         }
         self.later.retain(|(range, _)| range.start < count);
@@ -85,18 +77,18 @@ impl MeshIndex {
     /// The improper intersections of a patch with itself and with the indexed triangles of `mesh`.
     ///
     /// # Errors
-    /// `Cancelled` when `interrupted` says to stop.
+    /// `Cancelled` when the job is stopped.
     pub(crate) fn intersections(
         &self,
         mesh: &TriMesh,
         patch: AppendedPatch<'_>,
-        interrupted: &(dyn Fn() -> bool + Sync),
+        job: &Job<'_>,
     ) -> Result<SelfIntersections> {
         let base = surface(mesh, 0..self.base_count);
-        let mut found = count_unless(base, &self.base, patch, interrupted)?;
+        let mut found = count(base, &self.base, patch, job)?;
         for (range, tree) in &self.later {
             let part = surface(mesh, range.clone());
-            found.with_mesh += count_unless(part, tree, patch, interrupted)?.with_mesh;
+            found.with_mesh += count(part, tree, patch, job)?.with_mesh;
         }
         Ok(found)
     }
@@ -110,7 +102,7 @@ fn surface(mesh: &TriMesh, range: Range<usize>) -> Surface<'_> {
 }
 
 fn build(mesh: &TriMesh, range: Range<usize>) -> FaceIndex {
-    FaceIndex::build(surface(mesh, range))
+    FaceIndex::build(surface(mesh, range), &Job::unlimited()).expect("nothing stops it")
 }
 
 #[cfg(test)]
@@ -127,7 +119,7 @@ mod tests {
         let whole = &sphere.triangles;
         let part = |n: usize| TriMesh::new(sphere.positions.clone(), whole[..n].to_vec()).unwrap();
         let first = whole.len() / 3;
-        let mut index = MeshIndex::build(&part(first));
+        let mut index = MeshIndex::build(&part(first), &Job::unlimited()).unwrap();
         // A plane through the middle cuts many triangles.
         let base = sphere.positions.len() as u32;
         let points: Vec<Vec3> = [[-9.0, -9.0, 0.01], [9.0, -9.0, 0.02], [0.0, 9.0, 0.03]]
@@ -153,11 +145,12 @@ mod tests {
             let mesh = part(n);
             index.update(&mesh);
             let total = |index: &MeshIndex| {
-                let found = index.intersections(&mesh, patch, &|| false);
+                let found = index.intersections(&mesh, patch, &Job::unlimited());
                 found.unwrap().total()
             };
             let found = total(&index);
-            assert_eq!(found, total(&MeshIndex::build(&mesh)));
+            let anew = MeshIndex::build(&mesh, &Job::unlimited()).unwrap();
+            assert_eq!(found, total(&anew));
             let appended = n.saturating_sub(index.base_count);
             assert!(index.later.len() <= 2 + appended.ilog2_or_zero());
             counts.push(found);

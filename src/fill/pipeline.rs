@@ -11,6 +11,7 @@ use crate::boundary::linked::LinkedLoops;
 use crate::boundary::loops::{BoundaryLoop, BoundaryLoops};
 use crate::boundary::select::Selection;
 use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use crate::mesh::connectivity::{BOUNDARY, origin, target};
 use crate::mesh::trimesh::TriMesh;
 use rayon::prelude::*;
@@ -72,7 +73,7 @@ pub fn fill_holes(
         pool: &pool,
         watch: &watch,
     };
-    let index = pool.install(|| MeshIndex::build_unless(mesh, &|| watch.is_interrupted()));
+    let index = pool.install(|| MeshIndex::build(mesh, &Job::new(&watch)));
     report.index_seconds = start.elapsed().as_secs_f64();
 
     let start = Instant::now();
@@ -150,20 +151,17 @@ impl Work<'_> {
         holes: &[H],
         make: impl Fn(&Planner<'_>, &H) -> std::result::Result<Plan, Failure> + Sync,
     ) -> Vec<Planned> {
-        let interrupted = || self.watch.is_interrupted();
-        let planner = Planner {
-            mesh,
-            index,
-            options: self.options,
-            interrupted: &interrupted,
-        };
         let plan = |hole: &H| {
             let start = Instant::now();
-            let outcome = if self.watch.is_interrupted() {
-                Err(Error::cancelled().into())
-            } else {
-                make(&planner, hole)
+            let job = Job::new(self.watch);
+            let planner = Planner {
+                mesh,
+                index,
+                options: self.options,
+                job: &job,
             };
+            let outcome = job.ask().map_err(Failure::from);
+            let outcome = outcome.and_then(|()| make(&planner, hole));
             self.watch.advance();
             let outcome = outcome.map_err(|failure| self.explain(failure));
             (outcome, start.elapsed().as_secs_f64())
@@ -189,10 +187,9 @@ impl Work<'_> {
         planned: Vec<Planned>,
         reports: &mut [HoleReport],
     ) {
-        let interrupted = || self.watch.is_interrupted();
+        let job = Job::new(self.watch);
         let plans: Vec<Option<&Plan>> = planned.iter().map(|(p, _)| p.as_ref().ok()).collect();
-        let mut stitcher =
-            Stitcher::new(mesh, index, self.options, &interrupted, &plans, planned_at);
+        let mut stitcher = Stitcher::new(mesh, index, self.options, &job, &plans, planned_at);
         for (i, (hole, (plan, seconds))) in holes.iter().zip(planned).enumerate() {
             let start = Instant::now();
             let explain = |error| self.watch.explain(error);

@@ -10,7 +10,8 @@ use super::options::FillOptions;
 use super::report::{Attempt, Prediction};
 use super::verify::{check_patch, farthest};
 use crate::boundary::loops::BoundaryLoop;
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::PatchSurface;
@@ -96,7 +97,7 @@ pub(crate) struct Planner<'a> {
     pub(crate) index: &'a MeshIndex,
     pub(crate) options: &'a FillOptions,
     /// Asked from time to time; true stops the work.
-    pub(crate) interrupted: &'a (dyn Fn() -> bool + Sync),
+    pub(crate) job: &'a Job<'a>,
 }
 
 impl Planner<'_> {
@@ -113,9 +114,9 @@ impl Planner<'_> {
             .iter()
             .map(|&m| PatchMaker::reach(m, self.options))
             .fold(HoleReach::rings(1), HoleReach::union);
-        proceed_unless(self.interrupted)?;
-        let hole = Hole::new(self.mesh, outer, islands, reach, self.interrupted)?;
-        proceed_unless(self.interrupted)?;
+        self.job.ask()?;
+        let hole = Hole::new(self.mesh, outer, islands, reach, self.job)?;
+        self.job.ask()?;
         self.plan_hole(hole, methods)
     }
 
@@ -126,7 +127,7 @@ impl Planner<'_> {
         methods: &[Method],
     ) -> std::result::Result<Plan, Failure> {
         let mut tried = Vec::new();
-        let mut maker = PatchMaker::new(&hole.shape, self.options, self.interrupted);
+        let mut maker = PatchMaker::new(&hole.shape, self.options, self.job);
         let mut best: Option<(Candidate, usize)> = None;
         let mut last_error = None;
         let mut knotted = None;
@@ -185,8 +186,8 @@ impl Planner<'_> {
         method: Method,
     ) -> Result<Candidate> {
         let surface = maker.patch(method)?;
-        let twins = check_patch(hole, &surface, farthest(method), self.interrupted)?;
-        proceed_unless(self.interrupted)?;
+        let twins = check_patch(hole, &surface, farthest(method), self.job)?;
+        self.job.ask()?;
         let points: Vec<Vec3> = surface.points[surface.rim_count..]
             .iter()
             .map(|p| hole.to_mesh(p).into())
@@ -197,9 +198,7 @@ impl Planner<'_> {
             triangles: &triangles,
             twins: &twins,
         };
-        let intersections = self
-            .index
-            .intersections(self.mesh, patch, self.interrupted)?;
+        let intersections = self.index.intersections(self.mesh, patch, self.job)?;
         Ok(Candidate {
             method,
             surface,
@@ -228,7 +227,7 @@ impl Planner<'_> {
             surface: &surface,
             options: self.options,
             method,
-            interrupted: self.interrupted,
+            job: self.job,
         };
         let attributes = match task.carry() {
             Ok(attributes) => attributes,

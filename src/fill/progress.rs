@@ -1,6 +1,7 @@
 //! Progress of a fill, and what stops it: its caller, or the end of its time.
 
 use crate::error::{Error, ErrorKind};
+use crate::job::Stop;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
 use std::sync::{Mutex, TryLockError};
@@ -65,33 +66,6 @@ impl<'a> Watch<'a> {
         progress.unwrap_or_else(|e| e.into_inner()).holes_total = holes_total;
     }
 
-    /// Whether to stop. Asks the clock, and from time to time the caller.
-    pub(crate) fn is_interrupted(&self) -> bool {
-        if self.stop.load(Ordering::Relaxed) != GO_ON {
-            return true;
-        }
-        if self.callback.is_none() && self.time_budget.is_none() {
-            return false;
-        }
-        let elapsed = self.start.elapsed();
-        if self
-            .time_budget
-            .is_some_and(|budget| elapsed.as_secs_f64() >= budget)
-        {
-            self.stop_for(OUT_OF_TIME);
-        } else if elapsed.as_micros() as u64
-            >= self.told.load(Ordering::Relaxed) + PERIOD.as_micros() as u64
-        {
-            // Another thread that tells the caller right now will do.
-            match self.progress.try_lock() {
-                Ok(progress) => self.tell(*progress),
-                Err(TryLockError::Poisoned(poisoned)) => self.tell(**poisoned.get_ref()),
-                Err(TryLockError::WouldBlock) => {}
-            }
-        }
-        self.stop.load(Ordering::Relaxed) != GO_ON
-    }
-
     /// One more hole is finished.
     pub(super) fn advance(&self) {
         if self.callback.is_none() {
@@ -126,7 +100,7 @@ impl<'a> Watch<'a> {
         self.stop.load(Ordering::Relaxed) == CANCELLED
     }
 
-    /// Algorithms that are interrupted say that they were cancelled; when it was the time that ran out, this says so.
+    /// A job that is stopped says that it was cancelled; when it was the time that ran out, this says so.
     pub(crate) fn explain(&self, error: Error) -> Error {
         match (error.kind(), self.time_budget) {
             (ErrorKind::Cancelled, Some(budget))
@@ -137,5 +111,34 @@ impl<'a> Watch<'a> {
             }
             _ => error,
         }
+    }
+}
+
+/// Asks the clock, and from time to time the caller.
+impl Stop for Watch<'_> {
+    fn must_stop(&self) -> bool {
+        if self.stop.load(Ordering::Relaxed) != GO_ON {
+            return true;
+        }
+        if self.callback.is_none() && self.time_budget.is_none() {
+            return false;
+        }
+        let elapsed = self.start.elapsed();
+        if self
+            .time_budget
+            .is_some_and(|budget| elapsed.as_secs_f64() >= budget)
+        {
+            self.stop_for(OUT_OF_TIME);
+        } else if elapsed.as_micros() as u64
+            >= self.told.load(Ordering::Relaxed) + PERIOD.as_micros() as u64
+        {
+            // Another thread that tells the caller right now will do.
+            match self.progress.try_lock() {
+                Ok(progress) => self.tell(*progress),
+                Err(TryLockError::Poisoned(poisoned)) => self.tell(**poisoned.get_ref()),
+                Err(TryLockError::WouldBlock) => {}
+            }
+        }
+        self.stop.load(Ordering::Relaxed) != GO_ON
     }
 }

@@ -14,7 +14,8 @@ use super::report::{FillReport, HoleReport};
 use super::stitch::Outcome;
 use crate::boundary::loops::{BoundaryLoop, BoundaryLoops};
 use crate::boundary::select::Selection;
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::mesh::attributes::AttributeValues;
 use crate::mesh::connectivity::BOUNDARY;
@@ -200,7 +201,7 @@ impl FillSession {
     pub fn prepare(&self) {
         self.found_boundary();
         // Nothing stops it, so there is nothing that can fail.
-        let _ = self.index_unless(&|| false);
+        let _ = self.index(&Job::unlimited());
     }
 
     /// Whether the loop `id` has not been closed.
@@ -327,7 +328,7 @@ impl FillSession {
             let pool = thread_pool(options)?;
             let start = Instant::now();
             let is_indexed = self.index.get().is_some();
-            let index = pool.install(|| self.index_unless(&|| watch.is_interrupted()));
+            let index = pool.install(|| self.index(&Job::new(watch)));
             if !is_indexed {
                 plan.report.index_seconds = start.elapsed().as_secs_f64();
             }
@@ -487,16 +488,16 @@ impl FillSession {
     }
 
     /// The index, built if it is not there yet. One thread builds it, and others that need it wait.
-    fn index_unless(&self, interrupted: &(dyn Fn() -> bool + Sync)) -> Result<&MeshIndex> {
+    fn index(&self, job: &Job<'_>) -> Result<&MeshIndex> {
         loop {
             if let Some(index) = self.index.get() {
                 return Ok(index);
             }
-            proceed_unless(interrupted)?;
+            job.ask()?;
             match self.indexing.try_lock() {
                 // Another thread may have been done just before the lock was free.
                 Ok(_guard) if self.index.get().is_none() => {
-                    let index = MeshIndex::build_unless(&self.mesh, interrupted)?;
+                    let index = MeshIndex::build(&self.mesh, job)?;
                     return Ok(self.index.get_or_init(|| index));
                 }
                 Err(TryLockError::Poisoned(_)) => self.indexing.clear_poison(),

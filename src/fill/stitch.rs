@@ -9,6 +9,7 @@ use super::plan::{Failure, Plan, Planner, chain};
 use super::report::{Attempt, HoleReport, HoleStatus, Prediction};
 use super::verify::check_against_mesh;
 use crate::error::{Error, ErrorKind};
+use crate::job::{Job, UNLIMITED};
 use crate::math::Vec3;
 use crate::math::aabb::Aabb;
 use crate::math::box_tree::BoxTree;
@@ -18,12 +19,21 @@ use crate::quality::self_intersection::{AppendedPatch, count};
 use crate::quality::spatial::FaceIndex;
 use std::ops::Range;
 
+/// A patch that was planned is stitched even when the others are cancelled: the job only stops planning anew.
+const UNSTOPPED: &str = "nothing stops it";
+
+/// Pairs of a triangle of the patch and one of `part` that intersect.
+fn intersections(part: Surface<'_>, faces: &FaceIndex, patch: AppendedPatch<'_>) -> usize {
+    let found = count(part, faces, patch, &UNLIMITED);
+    found.expect(UNSTOPPED).with_mesh
+}
+
 /// Stitches planned patches into a mesh.
 pub(super) struct Stitcher<'a> {
     mesh: &'a mut TriMesh,
     index: &'a MeshIndex,
     options: &'a FillOptions,
-    interrupted: &'a (dyn Fn() -> bool + Sync),
+    job: &'a Job<'a>,
     /// Triangles that were appended after the patches were planned, and their index.
     since: Option<(Range<usize>, FaceIndex)>,
     /// Boxes of all planned patches.
@@ -59,24 +69,23 @@ impl<'a> Stitcher<'a> {
         mesh: &'a mut TriMesh,
         index: &'a MeshIndex,
         options: &'a FillOptions,
-        interrupted: &'a (dyn Fn() -> bool + Sync),
+        job: &'a Job<'a>,
         plans: &[Option<&Plan>],
         planned_at: usize,
     ) -> Self {
         let appended = planned_at..mesh.triangles().len();
         let since = (!appended.is_empty()).then(|| {
-            let tree = FaceIndex::build(part(mesh, appended.clone()));
+            let tree = FaceIndex::build(part(mesh, appended.clone()), &UNLIMITED).expect(UNSTOPPED);
             (appended, tree)
         });
-        let boxes = BoxTree::build(plans.len(), |i| {
-            plans[i].map_or_else(Aabb::empty, |plan| plan_box(mesh, plan))
-        });
+        let box_of = |i: usize| plans[i].map_or_else(Aabb::empty, |plan| plan_box(mesh, plan));
+        let boxes = BoxTree::build(plans.len(), box_of, &UNLIMITED).expect(UNSTOPPED);
         let stitched = vec![0..0; plans.len()];
         Self {
             mesh,
             index,
             options,
-            interrupted,
+            job,
             since,
             boxes,
             replanned: Vec::new(),
@@ -180,7 +189,7 @@ impl<'a> Stitcher<'a> {
             mesh: self.mesh,
             index: self.index,
             options: self.options,
-            interrupted: self.interrupted,
+            job: self.job,
         };
         let mut tried = plan.tried.clone();
         tried.push(Attempt {
@@ -233,7 +242,8 @@ impl<'a> Stitcher<'a> {
             .filter(|range| !range.is_empty())
             .map(|range| {
                 let other = part(self.mesh, range);
-                count(other, &FaceIndex::build(other), patch).with_mesh
+                let faces = FaceIndex::build(other, &UNLIMITED).expect(UNSTOPPED);
+                intersections(other, &faces, patch)
             })
             .sum()
     }
@@ -248,7 +258,7 @@ impl<'a> Stitcher<'a> {
             triangles,
             twins: &plan.twins,
         };
-        count(part(self.mesh, range.clone()), tree, patch).with_mesh
+        intersections(part(self.mesh, range.clone()), tree, patch)
     }
 
     fn append(&mut self, index: usize, plan: Plan, triangles: &[[u32; 3]]) -> Outcome {

@@ -2,7 +2,8 @@
 
 use super::hole::Hole;
 use super::method::Method;
-use crate::error::{Error, Result, proceed_unless};
+use crate::error::{Error, Result};
+use crate::job::Job;
 use crate::math::aabb::Aabb;
 use crate::math::cross_normal;
 use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD, origin, target};
@@ -41,12 +42,12 @@ pub(crate) fn farthest(method: Method) -> f64 {
 ///
 /// # Errors
 /// [`crate::ErrorKind::Topology`] or [`crate::ErrorKind::Geometry`] with the first violation found; `Cancelled` when
-/// `interrupted`, which is asked between the checks, returns true.
+/// the job is stopped.
 pub(crate) fn check_patch(
     hole: &Hole,
     surface: &PatchSurface,
     farthest: f64,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<Vec<u32>> {
     if let Some(v) = surface
         .points
@@ -80,9 +81,9 @@ pub(crate) fn check_patch(
             return Err(Error::geometry("a new triangle has no area".to_owned()));
         }
     }
-    proceed_unless(interrupted)?;
+    job.ask()?;
     let twins = pair_halfedges(&surface.triangles, surface.points.len());
-    proceed_unless(interrupted)?;
+    job.ask()?;
     let mut is_used = vec![false; surface.points.len()];
     surface
         .triangles

@@ -1,6 +1,7 @@
-//! Work that cannot be interrupted, made so that its caller need not wait for its end.
+//! Work that cannot be cancelled, made so that its caller need not wait for its end.
 
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
@@ -10,23 +11,22 @@ use std::time::Duration;
 /// Time between two questions whether to go on.
 const PERIOD: Duration = Duration::from_millis(5);
 
-/// Runs `work` on a thread of its own and waits for its result, asking `interrupted` from time to time on the
-/// calling thread.
+/// Runs `work` on a thread of its own and waits for its result, unless `job` is stopped.
 ///
-/// Once interrupted it waits no longer. The thread lives on until `work`, which owns all that it needs, comes to the
-/// next question that it puts to its argument, or to its end; then its memory is free again.
+/// Then it waits no longer, and stops the job of `work`. The thread lives on until `work`, which owns all that it needs,
+/// asks its job whether to stop, or comes to its end; then its memory is free again.
 ///
 /// # Errors
-/// [`ErrorKind::Cancelled`] when interrupted, [`ErrorKind::Limit`] when no thread can be started.
-pub(crate) fn run_unless<T: Send + 'static>(
-    interrupted: &dyn Fn() -> bool,
-    work: impl FnOnce(&dyn Fn() -> bool) -> T + Send + 'static,
+/// [`ErrorKind::Cancelled`] when `job` is stopped, [`ErrorKind::Limit`] when no thread can be started.
+pub(crate) fn run_in_background<T: Send + 'static>(
+    job: &Job<'_>,
+    work: impl FnOnce(&Job<'_>) -> T + Send + 'static,
 ) -> Result<T> {
     let is_given_up = Arc::new(AtomicBool::new(false));
     let (sender, receiver) = mpsc::channel();
     let is_given_up_there = Arc::clone(&is_given_up);
     let run = move || {
-        let result = work(&|| is_given_up_there.load(Ordering::Relaxed));
+        let result = work(&Job::new(&*is_given_up_there));
         // Nobody listens when the work was given up.
         let _ = sender.send(result);
     };
@@ -42,7 +42,7 @@ pub(crate) fn run_unless<T: Send + 'static>(
                 return Err(Error::new(ErrorKind::Solver, "the work broke off"));
             }
         }
-        if let Err(cancelled) = proceed_unless(interrupted) {
+        if let Err(cancelled) = job.ask() {
             is_given_up.store(true, Ordering::Relaxed);
             return Err(cancelled);
         }
@@ -56,14 +56,14 @@ mod tests {
 
     #[test]
     fn the_result_comes_back_and_an_interrupt_does_not_wait_for_it() {
-        assert_eq!(run_unless(&|| false, |_| 7).unwrap(), 7);
+        assert_eq!(run_in_background(&Job::unlimited(), |_| 7).unwrap(), 7);
         let (sender, receiver) = mpsc::channel();
         let start = Instant::now();
-        let outcome = run_unless(&|| true, move |is_given_up| {
-            while !is_given_up() && start.elapsed() < Duration::from_secs(60) {
+        let outcome = run_in_background(&Job::new(&|| true), move |job| {
+            while job.ask().is_ok() && start.elapsed() < Duration::from_secs(60) {
                 thread::yield_now();
             }
-            let _ = sender.send(is_given_up());
+            let _ = sender.send(job.ask().is_err());
         });
         assert_eq!(outcome.unwrap_err().kind(), ErrorKind::Cancelled);
         assert!(
@@ -74,7 +74,7 @@ mod tests {
 
     #[test]
     fn work_that_panics_is_an_error() {
-        let outcome = run_unless::<()>(&|| false, |_| panic!("on purpose"));
+        let outcome = run_in_background::<()>(&Job::unlimited(), |_| panic!("on purpose"));
         assert_eq!(outcome.unwrap_err().kind(), ErrorKind::Solver);
     }
 }

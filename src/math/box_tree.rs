@@ -10,17 +10,16 @@
 
 use super::Vec3;
 use super::aabb::Aabb;
-use crate::error::{Result, StopSign};
+use crate::error::Result;
+use crate::job::Job;
 use rayon::prelude::*;
 
 /// Children per node: a node's boxes fill three cache lines and the tree is eight levels for 4 M.
 const FANOUT: usize = 8;
 /// Boxes below which work is not worth sending to another thread.
 const GRAIN: usize = 4096;
-/// Boxes handled between two questions whether to go on, when one thread handles them all.
-const BOXES_PER_CHECK: usize = 1 << 19;
-/// Cells of some hundred boxes sorted between two questions.
-const CELLS_PER_CHECK: usize = 64;
+/// Keys that are moved in the time that a tick stands for.
+const KEYS_PER_TICK: usize = 8;
 /// Boxes are sorted within at most `8 ^ 5` cells of space.
 const MOST_CELL_LEVELS: u32 = 5;
 
@@ -171,29 +170,31 @@ pub(crate) struct BoxTree {
 
 impl BoxTree {
     /// Makes the tree of `count` boxes, at most `u32::MAX`; the id of a box is its argument.
-    pub(crate) fn build(count: usize, box_of: impl Fn(usize) -> Aabb + Sync) -> Self {
-        Self::build_unless(count, box_of, &|| false).expect("nothing stops it")
-    }
-
-    /// As [`build`](Self::build), unless `interrupted` says to stop.
     ///
     /// # Errors
-    /// `Cancelled` when it does.
-    pub(crate) fn build_unless(
+    /// `Cancelled` when the job is stopped.
+    pub(crate) fn build(
         count: usize,
         box_of: impl Fn(usize) -> Aabb + Sync,
-        interrupted: &(dyn Fn() -> bool + Sync),
+        job: &Job<'_>,
     ) -> Result<Self> {
-        let stop = StopSign::new(interrupted);
-        let box_of = |id| match stop.is_set_at(id, GRAIN) {
-            true => Aabb::empty(),
-            false => box_of(id),
+        let box_of = |id: usize| {
+            // One tick for many boxes: threads that all write to the job wait for each other.
+            let is_stopped = match id.is_multiple_of(GRAIN) {
+                true => job.tick(GRAIN).is_err(),
+                false => job.is_stopped(),
+            };
+            if is_stopped {
+                Aabb::empty()
+            } else {
+                box_of(id)
+            }
         };
         let indices = || (0..count).into_par_iter().with_min_len(GRAIN);
         let bounds = indices()
             .map(&box_of)
             .reduce(Aabb::empty, |a, b| a.union(&b));
-        stop.proceed()?;
+        job.ask()?;
         let frame = Frame::fit(&bounds);
 
         // Code and id share one word, so the order is total and a box moves as eight bytes.
@@ -206,9 +207,9 @@ impl BoxTree {
                 ((morton(&b.centre(), axis_bits) << id_bits) | id as u64, b)
             })
             .unzip_into_vecs(&mut keys, &mut unsorted);
-        stop.proceed()?;
+        job.ask()?;
         let id_mask = (1u64 << id_bits) - 1;
-        let order: Vec<u32> = sorted(keys, id_bits + 3 * axis_bits, &stop)?
+        let order: Vec<u32> = sorted(keys, id_bits + 3 * axis_bits, job)?
             .par_iter()
             .with_min_len(GRAIN)
             .map(|k| (k & id_mask) as u32)
@@ -223,7 +224,7 @@ impl BoxTree {
                 .map(|ids| Siblings::of(ids.iter().map(|&id| unsorted[id as usize]))),
         );
         drop(unsorted);
-        stop.proceed()?;
+        job.ask()?;
         let mut levels = vec![0, siblings.len()];
         let mut start = 0;
         while siblings.len() - start > 1 {
@@ -367,7 +368,7 @@ impl<F: FnMut(u32) -> f64> NearSearch<'_, F> {
 }
 
 /// Sorts keys of `bits` bits: first into cells by their highest bits, then within each cell in parallel.
-fn sorted(mut keys: Vec<u64>, bits: u32, stop: &StopSign<'_>) -> Result<Vec<u64>> {
+fn sorted(mut keys: Vec<u64>, bits: u32, job: &Job<'_>) -> Result<Vec<u64>> {
     if keys.len() < GRAIN {
         keys.sort_unstable();
         return Ok(keys);
@@ -376,8 +377,8 @@ fn sorted(mut keys: Vec<u64>, bits: u32, stop: &StopSign<'_>) -> Result<Vec<u64>
     let cell_bits = 3 * (keys.len().ilog2() / 2 - 4).min(MOST_CELL_LEVELS);
     let cell = |key: u64| (key >> (bits - cell_bits)) as usize;
     let mut ends = vec![0_usize; 1 << cell_bits];
-    for keys in keys.chunks(BOXES_PER_CHECK) {
-        stop.proceed()?;
+    for keys in keys.chunks(GRAIN) {
+        job.tick(GRAIN / KEYS_PER_TICK)?;
         for &key in keys {
             ends[cell(key)] += 1;
         }
@@ -387,8 +388,8 @@ fn sorted(mut keys: Vec<u64>, bits: u32, stop: &StopSign<'_>) -> Result<Vec<u64>
         (*end, sum) = (sum, sum + *end);
     }
     let mut sorted = vec![0; keys.len()];
-    for keys in keys.chunks(BOXES_PER_CHECK) {
-        stop.proceed()?;
+    for keys in keys.chunks(GRAIN) {
+        job.tick(GRAIN / KEYS_PER_TICK)?;
         for &key in keys {
             let place = &mut ends[cell(key)];
             sorted[*place] = key;
@@ -405,12 +406,11 @@ fn sorted(mut keys: Vec<u64>, bits: u32, stop: &StopSign<'_>) -> Result<Vec<u64>
         }
         (rest, start) = (later, end);
     }
-    cells.into_par_iter().enumerate().for_each(|(i, keys)| {
-        if !stop.is_set_at(i, CELLS_PER_CHECK) {
-            keys.sort_unstable();
-        }
-    });
-    stop.proceed()?;
+    cells.into_par_iter().try_for_each(|keys| {
+        job.tick(keys.len())?;
+        keys.sort_unstable();
+        Ok(())
+    })?;
     Ok(sorted)
 }
 

@@ -11,10 +11,11 @@
 
 use super::Vec3;
 use super::sparse::SymmetricMatrix;
-use crate::error::{Result, proceed_unless};
+use crate::error::Result;
+use crate::job::Job;
 
-/// Multiplications between two questions whether to go on: about ten milliseconds.
-const WORK_PER_CHECK: u64 = 10_000_000;
+/// Multiplications in the time that a tick stands for.
+const PRODUCTS_PER_TICK: usize = 32;
 
 /// An order of the unknowns that keeps rows short, and where the rows then start.
 pub(super) struct Envelope {
@@ -77,16 +78,16 @@ impl Envelope {
     /// positive definite.
     ///
     /// # Errors
-    /// `Cancelled` when `interrupted`, which is asked from time to time, returns true.
+    /// `Cancelled` when the job is stopped.
     pub(super) fn solve(
         &self,
         matrix: &SymmetricMatrix,
         shift: f64,
         right_side: &[Vec3],
-        interrupted: &dyn Fn() -> bool,
+        job: &Job<'_>,
     ) -> Result<Option<Vec<Vec3>>> {
         let mut rows = self.scatter(matrix, shift);
-        if !rows.factorise(interrupted)? {
+        if !rows.factorise(job)? {
             return Ok(None);
         }
         let mut solution = vec![Vec3::zeros(); right_side.len()];
@@ -198,17 +199,12 @@ struct Rows<'a> {
 
 impl Rows<'_> {
     /// Replaces the matrix by its factor; false when it is not positive definite.
-    fn factorise(&mut self, interrupted: &dyn Fn() -> bool) -> Result<bool> {
-        let mut work = 0;
+    fn factorise(&mut self, job: &Job<'_>) -> Result<bool> {
         for i in 0..self.first.len() {
             let (above, row) = self.values.split_at_mut(self.starts[i]);
             let first = self.first[i] as usize;
             let width = i - first;
-            work += (width * width) as u64;
-            if work > WORK_PER_CHECK {
-                work = 0;
-                proceed_unless(interrupted)?;
-            }
+            job.tick(width * width / PRODUCTS_PER_TICK)?;
             for k in 0..width {
                 let j = first + k;
                 let other = &above[self.starts[j]..self.starts[j + 1]];
@@ -302,7 +298,7 @@ mod tests {
             let right_side: Vec<Vec3> =
                 (0..size).map(|i| Vec3::new(i as f64, 1.0, -(i as f64).sin())).collect();
             let envelope = Envelope::new(&sparse);
-            let found = envelope.solve(&sparse, 0.0, &right_side, &|| false).unwrap().unwrap();
+            let found = envelope.solve(&sparse, 0.0, &right_side, &Job::unlimited()).unwrap().unwrap();
             let dense = full.cholesky().unwrap();
             for k in 0..3 {
                 let column = nalgebra::DVector::from_fn(size, |i, _| right_side[i][k]);
@@ -329,7 +325,7 @@ mod tests {
             .collect();
         let (sparse, _) = matrix(400, &entries);
         let envelope = Envelope::new(&sparse);
-        let outcome = envelope.solve(&sparse, 0.0, &[Vec3::zeros(); 400], &|| true);
+        let outcome = envelope.solve(&sparse, 0.0, &[Vec3::zeros(); 400], &Job::new(&|| true));
         assert_eq!(outcome.unwrap_err().kind(), crate::ErrorKind::Cancelled);
     }
 }

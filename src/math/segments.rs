@@ -3,6 +3,8 @@
 use super::Vec3;
 use super::aabb::Aabb;
 use super::box_tree::BoxTree;
+use crate::error::Result;
+use crate::job::Job;
 
 /// The point of the segment from `a` to `b` closest to `p`.
 pub(crate) fn closest_on_segment(p: &Vec3, a: &Vec3, b: &Vec3) -> Vec3 {
@@ -24,9 +26,12 @@ pub(crate) struct Segments {
 
 impl Segments {
     /// Indexes the segments, which must be finite. O(n log n).
-    pub(crate) fn new(ends: Vec<[Vec3; 2]>) -> Self {
-        let tree = BoxTree::build(ends.len(), |i| Aabb::around(&ends[i]));
-        Self { ends, tree }
+    ///
+    /// # Errors
+    /// `Cancelled` when the job is stopped.
+    pub(crate) fn new(ends: Vec<[Vec3; 2]>, job: &Job<'_>) -> Result<Self> {
+        let tree = BoxTree::build(ends.len(), |i| Aabb::around(&ends[i]), job)?;
+        Ok(Self { ends, tree })
     }
 
     /// Squared distance from `p`, which must be finite, to the nearest segment; infinite when there is none.
@@ -49,7 +54,9 @@ mod tests {
     #[test]
     fn no_segment_is_infinitely_far() {
         assert_eq!(
-            Segments::new(Vec::new()).distance_sq(&Vec3::zeros()),
+            Segments::new(Vec::new(), &Job::unlimited())
+                .unwrap()
+                .distance_sq(&Vec3::zeros()),
             f64::INFINITY
         );
     }
@@ -66,7 +73,7 @@ mod tests {
                 .iter()
                 .map(|[a, b]| (p - closest_on_segment(&p, a, b)).norm_squared())
                 .fold(f64::INFINITY, f64::min);
-            prop_assert_eq!(Segments::new(ends).distance_sq(&p), expected);
+            prop_assert_eq!(Segments::new(ends, &Job::unlimited()).unwrap().distance_sq(&p), expected);
         }
     }
 }

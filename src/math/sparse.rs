@@ -2,9 +2,10 @@
 //! supernodal Cholesky factorisation of `faer`.
 
 use super::Vec3;
-use super::background::run_unless;
+use super::background::run_in_background;
 use super::envelope::Envelope;
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use faer::linalg::solvers::SolveCore;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
@@ -16,7 +17,7 @@ const ENVELOPE_UNKNOWNS: usize = 4096;
 const ENVELOPE_WORK: u64 = 10_000_000;
 
 /// Systems of more unknowns are solved on a thread of their own, for which nobody has to wait who wants to stop: the
-/// steps of the factorisation cannot be interrupted. Up to here each takes some milliseconds.
+/// steps of the factorisation cannot be cancelled. Up to here each takes some milliseconds.
 const WAITED_FOR: usize = 10_000;
 
 /// Added to the diagonal, relative to its mean, against loss of definiteness by rounding.
@@ -44,37 +45,31 @@ impl SymmetricMatrix {
 
 /// A solver that keeps the symbolic factorisation while the pattern of the matrix stays the same.
 pub(crate) struct SpdSolver<'a> {
-    interrupted: &'a dyn Fn() -> bool,
+    job: &'a Job<'a>,
     pattern: (Vec<u32>, Vec<u32>),
     symbolic: Option<SymbolicLlt<u32>>,
 }
 
-impl Default for SpdSolver<'_> {
-    fn default() -> Self {
-        Self::new(&|| false)
-    }
-}
-
 impl<'a> SpdSolver<'a> {
-    /// `interrupted` is asked from time to time; true stops the work.
-    pub(crate) fn new(interrupted: &'a dyn Fn() -> bool) -> Self {
+    /// A solver that knows no pattern yet.
+    pub(crate) fn new(job: &'a Job<'a>) -> Self {
         Self {
-            interrupted,
+            job,
             pattern: (Vec::new(), Vec::new()),
             symbolic: None,
         }
     }
 
-    /// The question whether to stop, for the work that makes the system.
-    pub(crate) fn interrupted(&self) -> &'a dyn Fn() -> bool {
-        self.interrupted
+    /// What the solver works for, for the work that makes the system.
+    pub(crate) fn job(&self) -> &'a Job<'a> {
+        self.job
     }
 
     /// Solves `matrix * x = right_side` for three coordinates at once and returns `x`.
     ///
     /// # Errors
     /// [`ErrorKind::Solver`] when the matrix is not positive definite or the solution not finite;
-    /// [`ErrorKind::Cancelled`] when interrupted.
+    /// [`ErrorKind::Cancelled`] when the job is stopped.
     pub(crate) fn solve(
         &mut self,
         mut matrix: SymmetricMatrix,
@@ -88,7 +83,7 @@ impl<'a> SpdSolver<'a> {
         if size <= ENVELOPE_UNKNOWNS {
             let envelope = Envelope::new(&matrix);
             if envelope.work() <= ENVELOPE_WORK {
-                let solution = envelope.solve(&matrix, shift, right_side, self.interrupted)?;
+                let solution = envelope.solve(&matrix, shift, right_side, self.job)?;
                 return finite(solution.ok_or_else(|| {
                     failed(format!(
                         "the matrix of {size} unknowns is not positive definite"
@@ -102,18 +97,18 @@ impl<'a> SpdSolver<'a> {
         let is_known = self.pattern.0 == matrix.column_starts && self.pattern.1 == matrix.rows;
         let known = self.symbolic.take().filter(|_| is_known);
         let right_side = right_side.to_vec();
-        let work = move |interrupted: &dyn Fn() -> bool| {
-            factor_and_solve(&matrix, known, &right_side, interrupted)
+        let work = move |job: &Job<'_>| {
+            factor_and_solve(&matrix, known, &right_side, job)
                 .map(|(solution, symbolic)| (solution, symbolic, matrix))
         };
         let (solution, symbolic, matrix) = if size <= WAITED_FOR {
-            work(self.interrupted)?
+            work(self.job)?
         } else {
-            run_unless(self.interrupted, work)??
+            run_in_background(self.job, work)??
         };
         self.symbolic = Some(symbolic);
         self.pattern = (matrix.column_starts, matrix.rows);
-        proceed_unless(self.interrupted)?;
+        self.job.ask()?;
         finite(solution)
     }
 }
@@ -123,22 +118,22 @@ fn factor_and_solve(
     matrix: &SymmetricMatrix,
     known: Option<SymbolicLlt<u32>>,
     right_side: &[Vec3],
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<(Vec<Vec3>, SymbolicLlt<u32>)> {
     let size = matrix.size();
     let pattern =
         SymbolicSparseColMatRef::new_checked(size, size, &matrix.column_starts, None, &matrix.rows);
-    proceed_unless(interrupted)?;
+    job.ask()?;
     let symbolic = match known {
         Some(symbolic) => symbolic,
         None => SymbolicLlt::try_new(pattern, Side::Lower)
             .map_err(|e| failed(format!("symbolic factorisation: {e:?}")))?,
     };
-    proceed_unless(interrupted)?;
+    job.ask()?;
     let values = SparseColMatRef::new(pattern, &matrix.values[..]);
     let factor = Llt::try_new_with_symbolic(symbolic.clone(), values, Side::Lower)
         .map_err(|e| failed(format!("factorisation of {size} unknowns: {e:?}")))?;
-    proceed_unless(interrupted)?;
+    job.ask()?;
     let mut x = Mat::from_fn(size, 3, |i, k| right_side[i][k]);
     factor.solve_in_place_with_conj(Conj::No, x.as_mut());
     Ok((rows(&x), symbolic))
@@ -169,6 +164,7 @@ fn failed(message: String) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::job::UNLIMITED;
 
     /// The second-difference matrix of a path with fixed ends.
     fn path(size: usize) -> SymmetricMatrix {
@@ -193,7 +189,7 @@ mod tests {
         for size in [1, 2, 7, 300] {
             let mut right_side = vec![Vec3::zeros(); size];
             right_side[size - 1] = Vec3::new(size as f64 + 1.0, 0.0, -(size as f64) - 1.0);
-            let mut solver = SpdSolver::default();
+            let mut solver = SpdSolver::new(&UNLIMITED);
             // The inverse has row sums of up to (size + 1)² / 8, by which the shift of the diagonal is
             // multiplied; the coordinates reach the size, and there are two of them.
             let end = size as f64 + 1.0;
@@ -215,7 +211,7 @@ mod tests {
     fn an_indefinite_matrix_is_an_error() {
         let mut m = path(5);
         m.values[0] = -2.0;
-        let error = SpdSolver::default()
+        let error = SpdSolver::new(&UNLIMITED)
             .solve(m, &[Vec3::zeros(); 5])
             .unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Solver);
@@ -225,6 +221,10 @@ mod tests {
     fn values_that_are_not_finite_are_an_error() {
         let mut m = path(5);
         m.values[2] = f64::NAN;
-        assert!(SpdSolver::default().solve(m, &[Vec3::zeros(); 5]).is_err());
+        assert!(
+            SpdSolver::new(&UNLIMITED)
+                .solve(m, &[Vec3::zeros(); 5])
+                .is_err()
+        );
     }
 }

@@ -2,11 +2,9 @@
 
 use super::connectivity::{DEGENERATE, next, origin, previous};
 use super::trimesh::TriMesh;
-use crate::error::{Result, proceed_every, proceed_unless};
+use crate::error::Result;
+use crate::job::Job;
 use crate::math::segments::Segments;
-
-/// Distances to the rim that are measured between two questions whether to stop: about a millisecond's work.
-const DISTANCES_PER_CHECK: usize = 1024;
 
 /// How far the rings round a rim go.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,12 +83,12 @@ pub(crate) struct Rings {
 /// search among the rim's edges for each vertex.
 ///
 /// # Errors
-/// `Cancelled` when `interrupted` returns true.
+/// `Cancelled` when the job is stopped.
 pub(crate) fn collect_rings(
     mesh: &TriMesh,
     rim_halfedges: &[u32],
     reach: Reach,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<Rings> {
     let triangles = mesh.triangles();
     // A vertex with the halfedge through which it was met, so that the walk stays on its sheet. Each rim
@@ -106,14 +104,17 @@ pub(crate) fn collect_rings(
     let mut known_faces: Vec<u32> = Vec::new();
     let mut rim_edges: Option<Segments> = None;
     for ring in 0.. {
-        proceed_unless(interrupted)?;
+        job.ask()?;
         if ring >= reach.rings && reach.distance > 0.0 {
-            let rim_edges = rim_edges.get_or_insert_with(|| edges(mesh, rim_halfedges));
+            let rim_edges = match &rim_edges {
+                Some(known) => known,
+                None => rim_edges.insert(edges(mesh, rim_halfedges, job)?),
+            };
             let limit = reach.distance * reach.distance;
-            proceed_unless(interrupted)?;
+            job.ask()?;
             let mut near = Vec::with_capacity(frontier.len());
-            for (i, &(v, h)) in frontier.iter().enumerate() {
-                proceed_every(DISTANCES_PER_CHECK, i, interrupted)?;
+            for &(v, h) in &frontier {
+                job.tick(30)?;
                 if rim_edges.distance_sq(&mesh.point(v)) < limit {
                     near.push((v, h));
                 }
@@ -159,10 +160,10 @@ pub(crate) fn collect_rings(
     Ok(Rings { faces, levels })
 }
 
-fn edges(mesh: &TriMesh, halfedges: &[u32]) -> Segments {
+fn edges(mesh: &TriMesh, halfedges: &[u32], job: &Job<'_>) -> Result<Segments> {
     let triangles = mesh.triangles();
     let ends = halfedges
         .iter()
         .map(|&h| [origin(triangles, h), origin(triangles, next(h))].map(|v| mesh.point(v)));
-    Segments::new(ends.collect())
+    Segments::new(ends.collect(), job)
 }

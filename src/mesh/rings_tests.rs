@@ -5,6 +5,7 @@ use super::rings::{FanEnd, Reach, Rings, collect_rings, walk_fan};
 use super::trimesh::TriMesh;
 use crate::boundary::loops::BoundaryLoops;
 use crate::fixtures::{self, Arrays};
+use crate::job::Job;
 use std::collections::BTreeSet;
 
 fn mesh_of(arrays: &Arrays) -> TriMesh {
@@ -12,7 +13,7 @@ fn mesh_of(arrays: &Arrays) -> TriMesh {
 }
 
 fn collected(mesh: &TriMesh, rim_halfedges: &[u32], reach: Reach) -> Rings {
-    collect_rings(mesh, rim_halfedges, reach, &|| false).unwrap()
+    collect_rings(mesh, rim_halfedges, reach, &Job::unlimited()).unwrap()
 }
 
 /// Levels of all vertices: edges between them and the nearest one of `rim`.
@@ -128,7 +129,8 @@ fn a_distance_collects_what_touches_a_vertex_nearer_than_it() {
     let mesh = mesh_of(&fixtures::sheet_with_hole());
     for l in &BoundaryLoops::find(&mesh).loops {
         let segments = (0..l.vertices.len()).map(|i| l.directed_edge(i).map(|v| mesh.point(v)));
-        let segments = crate::math::segments::Segments::new(segments.collect());
+        let segments =
+            crate::math::segments::Segments::new(segments.collect(), &Job::unlimited()).unwrap();
         let distance = 2.5 * l.perimeter / l.vertices.len() as f64;
         for rings in [0, 1, 6] {
             let reach = Reach { rings, distance };

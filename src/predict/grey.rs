@@ -10,7 +10,8 @@
 //! the section.
 
 use super::hpde::{BasePoint, HpdeOptions, Known, Outside, Predicted, Prepared};
-use crate::error::{Result, proceed_unless};
+use crate::error::Result;
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::patch::{HoleShape, PatchSurface};
 use std::f64::consts::PI;
@@ -48,13 +49,13 @@ pub(crate) fn predict(
     options: &GreyOptions,
     hpde: &HpdeOptions,
     most_points: usize,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<PatchSurface> {
-    let outside = Outside::new(hole, interrupted)?;
+    let outside = Outside::new(hole, job)?;
     let curves = |base: &[BasePoint], sections: &[Prepared]| -> Result<Predicted> {
         let mut all = Vec::with_capacity(sections.len());
         for section in sections {
-            proceed_unless(interrupted)?;
+            job.ask()?;
             let ends = [&base[section.pair.first], &base[section.pair.second]];
             let step = section.step();
             let from = ends.map(|end| outside.walk(end, section, step, options.series));
@@ -62,7 +63,7 @@ pub(crate) fn predict(
         }
         Ok(all)
     };
-    super::hpde::patch_along(hole, hpde, most_points, &curves, interrupted)
+    super::hpde::patch_along(hole, hpde, most_points, &curves, job)
 }
 
 /// The points of a section: the first half continues the known surface before the first end, the second half that

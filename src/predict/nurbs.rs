@@ -10,7 +10,8 @@
 //! a strongly curved surface.
 
 use super::hpde::{BasePoint, HpdeOptions, Outside, Predicted, Prepared};
-use crate::error::{Result, proceed_unless};
+use crate::error::Result;
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::patch::{HoleShape, PatchSurface};
 
@@ -45,13 +46,13 @@ pub(crate) fn predict(
     options: &NurbsOptions,
     hpde: &HpdeOptions,
     most_points: usize,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<PatchSurface> {
-    let outside = Outside::new(hole, interrupted)?;
+    let outside = Outside::new(hole, job)?;
     let surface = |base: &[BasePoint], sections: &[Prepared]| -> Result<Predicted> {
         let mut curves = Vec::with_capacity(sections.len());
         for section in sections {
-            proceed_unless(interrupted)?;
+            job.ask()?;
             let ends = [&base[section.pair.first], &base[section.pair.second]];
             let [near, far] =
                 ends.map(|end| outside.walk(end, section, section.step(), options.layers));
@@ -72,7 +73,7 @@ pub(crate) fn predict(
             })
             .collect())
     };
-    super::hpde::patch_along(hole, hpde, most_points, &surface, interrupted)
+    super::hpde::patch_along(hole, hpde, most_points, &surface, job)
 }
 
 /// A point of the spline surface: the curves of even number are interpolated, those between them give way.

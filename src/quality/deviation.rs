@@ -17,6 +17,7 @@ use super::{
     spatial::{FaceIndex, Nearest},
 };
 use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
 use rayon::prelude::*;
 
@@ -142,8 +143,8 @@ fn compare_surfaces(a: Surface<'_>, b: Surface<'_>) -> Result<Deviation> {
             ));
         }
     }
-    let index_a = FaceIndex::build(a);
-    let index_b = FaceIndex::build(b);
+    let index_a = FaceIndex::build(a, &Job::unlimited())?;
+    let index_b = FaceIndex::build(b, &Job::unlimited())?;
     let from_a = measure(a, b, &index_b)?;
     let from_b = measure(b, a, &index_a)?;
     let (ab, ba) = (from_a.distances, from_b.distances);

@@ -15,7 +15,8 @@ use super::{
     separation::Separator,
     spatial::FaceIndex,
 };
-use crate::error::{Result, StopSign};
+use crate::error::Result;
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::math::aabb::Aabb;
 use crate::math::box_tree::BoxTree;
@@ -97,23 +98,14 @@ impl SelfIntersections {
 
 /// Counts the improper intersections of `patch` with itself and with `mesh`, which `faces`
 /// indexes.
+///
+/// # Errors
+/// `Cancelled` when the job is stopped.
 pub(crate) fn count(
     mesh: Surface<'_>,
     faces: &FaceIndex,
     patch: AppendedPatch<'_>,
-) -> SelfIntersections {
-    count_unless(mesh, faces, patch, &|| false).expect("nothing stops it")
-}
-
-/// As [`count`], unless `interrupted` says to stop.
-///
-/// # Errors
-/// `Cancelled` when it does.
-pub(crate) fn count_unless(
-    mesh: Surface<'_>,
-    faces: &FaceIndex,
-    patch: AppendedPatch<'_>,
-    interrupted: &(dyn Fn() -> bool + Sync),
+    job: &Job<'_>,
 ) -> Result<SelfIntersections> {
     let corners_of = |triangle: &[u32; 3]| {
         triangle.map(|v| match (v as usize).checked_sub(mesh.points.len()) {
@@ -135,7 +127,7 @@ pub(crate) fn count_unless(
     if corners.len() <= PIECE {
         Ok(task.sweep(is_sound))
     } else {
-        task.search_in_parallel(is_sound, interrupted)
+        task.search_in_parallel(is_sound, job)
     }
 }
 
@@ -249,21 +241,12 @@ impl Task<'_> {
         }
     }
 
-    fn search_in_parallel(
-        &self,
-        is_sound: bool,
-        interrupted: &(dyn Fn() -> bool + Sync),
-    ) -> Result<SelfIntersections> {
-        let stop = StopSign::new(interrupted);
+    fn search_in_parallel(&self, is_sound: bool, job: &Job<'_>) -> Result<SelfIntersections> {
         let own = if is_sound {
             None
         } else {
             let box_of = |i: usize| self.boxes[i];
-            Some(BoxTree::build_unless(
-                self.boxes.len(),
-                box_of,
-                interrupted,
-            )?)
+            Some(BoxTree::build(self.boxes.len(), box_of, job)?)
         };
         let pieces = 0..self.boxes.len().div_ceil(PIECE);
         let search = |p: usize| {
@@ -273,9 +256,7 @@ impl Task<'_> {
             for i in piece {
                 let separator = &Separator::new(self.triangles[i], self.corners[i]);
                 // Beside long thin triangles each one may take milliseconds.
-                if stop.is_set_at(i, 1) {
-                    break;
-                }
+                job.tick(10 + found.len())?;
                 if let Some(own) = &own {
                     own.overlapping(&self.boxes[i], &mut found);
                     for &j in found.iter().filter(|&&j| j as usize > i) {
@@ -284,15 +265,14 @@ impl Task<'_> {
                 }
                 self.search_mesh(i, separator, &mut found, &mut pairs);
             }
-            tally(pairs)
+            Ok(tally(pairs))
         };
         // A pool of one thread would only add the way to it.
         let tallies: Vec<_> = if rayon::current_num_threads() == 1 {
-            pieces.map(search).collect()
+            pieces.map(search).collect::<Result<_>>()?
         } else {
-            pieces.into_par_iter().map(search).collect()
+            pieces.into_par_iter().map(search).collect::<Result<_>>()?
         };
-        stop.proceed()?;
         Ok(tallies
             .into_iter()
             .fold(SelfIntersections::default(), SelfIntersections::merge))
@@ -338,8 +318,8 @@ mod tests {
     }
 
     fn check(mesh: Surface<'_>, patch: AppendedPatch<'_>) -> SelfIntersections {
-        let faces = FaceIndex::build(mesh);
-        let found = count(mesh, &faces, patch);
+        let faces = FaceIndex::build(mesh, &Job::unlimited()).unwrap();
+        let found = count(mesh, &faces, patch, &Job::unlimited()).unwrap();
         assert_eq!(found, by_all_pairs(mesh, patch));
         found
     }
@@ -472,8 +452,8 @@ mod tests {
                 triangles: &triangles,
                 twins: &pair_halfedges(&triangles, points.len()),
             };
-            let faces = FaceIndex::build(mesh);
-            let found = count(mesh, &faces, patch);
+            let faces = FaceIndex::build(mesh, &Job::unlimited()).unwrap();
+            let found = count(mesh, &faces, patch, &Job::unlimited()).unwrap();
             assert_eq!(found, by_all_pairs(mesh, patch));
         }
     }

@@ -2,6 +2,7 @@
 
 use super::{Surface, closest::closest_on_triangle};
 use crate::error::Result;
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::math::aabb::Aabb;
 use crate::math::box_tree::BoxTree;
@@ -29,23 +30,12 @@ pub(crate) struct FaceIndex {
 
 impl FaceIndex {
     /// Indexes all faces of a surface of at most `u32::MAX` faces.
-    pub(crate) fn build(surface: Surface<'_>) -> Self {
-        let box_of = |f| Aabb::around(&surface.corners(f));
-        Self {
-            tree: BoxTree::build(surface.triangles.len(), box_of),
-        }
-    }
-
-    /// As [`build`](Self::build), unless `interrupted` says to stop.
     ///
     /// # Errors
-    /// `Cancelled` when it does.
-    pub(crate) fn build_unless(
-        surface: Surface<'_>,
-        interrupted: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Self> {
+    /// `Cancelled` when the job is stopped.
+    pub(crate) fn build(surface: Surface<'_>, job: &Job<'_>) -> Result<Self> {
         let box_of = |f| Aabb::around(&surface.corners(f));
-        let tree = BoxTree::build_unless(surface.triangles.len(), box_of, interrupted)?;
+        let tree = BoxTree::build(surface.triangles.len(), box_of, job)?;
         Ok(Self { tree })
     }
 
@@ -119,7 +109,9 @@ mod tests {
 
     fn check_box_query(surface: Surface<'_>, query: &Aabb) {
         let mut found = vec![7];
-        FaceIndex::build(surface).overlapping(query, &mut found);
+        FaceIndex::build(surface, &Job::unlimited())
+            .unwrap()
+            .overlapping(query, &mut found);
         assert!(found.is_sorted_by(|a, b| a < b), "ascending, each once");
         // The slack of single precision in a cube of the mesh's size.
         let extent = Aabb::around(surface.points);
@@ -159,7 +151,7 @@ mod tests {
             let best = (0..triangles.len())
                 .map(|f| (closest_on_triangle(&p, &surface.corners(f)) - p).norm_squared())
                 .min_by(f64::total_cmp);
-            let found = FaceIndex::build(surface).nearest(surface, &p);
+            let found = FaceIndex::build(surface, &Job::unlimited()).unwrap().nearest(surface, &p);
             prop_assert_eq!(found.map(|n| n.distance_sq), best);
         }
     }
@@ -190,7 +182,7 @@ mod tests {
                 points: &points,
                 triangles: &triangles[..count],
             };
-            let index = FaceIndex::build(surface);
+            let index = FaceIndex::build(surface, &Job::unlimited()).unwrap();
             let mut found = Vec::new();
             index.overlapping(&Aabb::around(&points), &mut found);
             assert_eq!(found, (0..count as u32).collect::<Vec<_>>());
@@ -214,7 +206,7 @@ mod tests {
                 .num_threads(threads)
                 .build()
                 .expect("pool");
-            let index = pool.install(|| FaceIndex::build(surface));
+            let index = pool.install(|| FaceIndex::build(surface, &Job::unlimited()).unwrap());
             format!("{index:?}")
         };
         assert_eq!(build(1), build(3));
@@ -235,7 +227,7 @@ mod tests {
                 points: &points,
                 triangles: &[[0, 1, 2], [0, 0, 0]],
             };
-            let index = FaceIndex::build(surface);
+            let index = FaceIndex::build(surface, &Job::unlimited()).unwrap();
             let mut found = Vec::new();
             index.overlapping(&Aabb::around(&[o]), &mut found);
             let _ = index.nearest(surface, &Vec3::x());
@@ -246,7 +238,9 @@ mod tests {
             triangles: &[[0, 1, 2]],
         };
         let mut found = Vec::new();
-        FaceIndex::build(surface).overlapping(&Aabb::around(&[o]), &mut found);
+        FaceIndex::build(surface, &Job::unlimited())
+            .unwrap()
+            .overlapping(&Aabb::around(&[o]), &mut found);
         assert_eq!(found, [0]);
     }
 }

@@ -14,12 +14,13 @@
 //! Complexity: O(n k) for n points with k neighbours, O(n log n) to sort.
 
 use super::cloud::{Cloud, Neighbours, for_all};
+use super::gaps;
 use super::reach::{RIM_SHARE, circumradius, limits};
 use super::star::Star;
 use super::surface::{Surface, from_lowest, rotations};
 use super::tangent::Tangent;
-use super::{THINGS_PER_CHECK, gaps};
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::job::Job;
 use rayon::prelude::*;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -35,7 +36,7 @@ pub(super) struct Assembler<'a> {
     pub(super) tangents: &'a [Option<Tangent>],
     /// The largest radius of a triangle's circle, if the caller gave it, in the cloud's unit.
     pub(super) radius: Option<f64>,
-    pub(super) interrupted: &'a (dyn Fn() -> bool + Sync),
+    pub(super) job: &'a Job<'a>,
 }
 
 /// The surface, and how large its triangles could be.
@@ -69,20 +70,18 @@ impl Assembler<'_> {
     /// # Errors
     /// `Cancelled` when the caller asked to stop.
     pub(super) fn run(&self) -> Result<Assembled> {
-        let near = for_all(self.cloud.len(), self.interrupted, |v| {
+        let near = for_all(self.cloud.len(), self.job, |v| {
             self.star(v, self.neighbours.of(v))
         })?;
         let limits = self.limits(&near)?;
-        let stars = for_all(self.cloud.len(), self.interrupted, |v| {
+        let stars = for_all(self.cloud.len(), self.job, |v| {
             self.choice(v, &near[v as usize], limits[v as usize])
         })?;
         let candidates = self.candidates(&stars, &limits);
         let mut surface = Surface::new(self.cloud, self.tangents);
-        for chunk in candidates.chunks(THINGS_PER_CHECK) {
-            self.check()?;
-            for candidate in chunk {
-                surface.add(candidate.corners);
-            }
+        for candidate in candidates {
+            self.job.tick(10)?;
+            surface.add(candidate.corners);
         }
         self.close_gaps(&mut surface, &limits)?;
         // Before the rims are taken back, so that this starts at holes and not at what stars disagree on.
@@ -97,23 +96,16 @@ impl Assembler<'_> {
         })
     }
 
-    fn check(&self) -> Result<()> {
-        if (self.interrupted)() {
-            return Err(Error::cancelled());
-        }
-        Ok(())
-    }
-
     fn limits(&self, stars: &[Star]) -> Result<Vec<f64>> {
         if let Some(radius) = self.radius {
             return Ok(vec![radius; stars.len()]);
         }
-        let radii = for_all(stars.len(), self.interrupted, |v| {
+        let radii = for_all(stars.len(), self.job, |v| {
             let sectors = stars[v as usize].sectors();
             let radii = sectors.map(|[a, b]| self.radius([v, a, b]));
             radii.filter(|r| r.is_finite()).collect()
         })?;
-        limits(self.cloud, self.neighbours, &radii, self.interrupted)
+        limits(self.cloud, self.neighbours, &radii, self.job)
     }
 
     fn radius(&self, corners: [u32; 3]) -> f64 {
@@ -195,12 +187,8 @@ impl Assembler<'_> {
         for side in surface.boundary() {
             self.queue_triangles(surface, limits, side, &mut queue);
         }
-        let mut steps = 0;
         while let Some(Reverse(Queued { corners, .. })) = queue.pop() {
-            steps += 1;
-            if steps % THINGS_PER_CHECK == 0 {
-                self.check()?;
-            }
+            self.job.tick(30)?;
             if !surface.add(corners) {
                 continue;
             }

@@ -4,14 +4,17 @@
 //!
 //! Complexity: O(n log n) to build; O(k log n) for k neighbours.
 
-use super::THINGS_PER_CHECK;
 use crate::error::{Error, Result};
+use crate::job::Job;
 use crate::math::Vec3;
 use rayon::prelude::*;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 type Entry = GeomWithData<[f64; 3], u32>;
+
+/// Points that one thread takes at a time.
+const GRAIN: usize = 256;
 
 /// Points at different places, numbered in the order of the caller's positions.
 pub(super) struct Cloud {
@@ -92,14 +95,10 @@ impl Cloud {
     /// The `count` nearest neighbours of every point.
     ///
     /// # Errors
-    /// [`ErrorKind::Cancelled`] when `interrupted` returns true.
-    pub(super) fn all_nearest(
-        &self,
-        count: usize,
-        interrupted: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Neighbours> {
+    /// [`ErrorKind::Cancelled`] when the job is stopped.
+    pub(super) fn all_nearest(&self, count: usize, job: &Job<'_>) -> Result<Neighbours> {
         let count = count.min(self.len().saturating_sub(1));
-        let lists = for_all(self.len(), interrupted, |v| self.nearest(v, count))?;
+        let lists = for_all(self.len(), job, |v| self.nearest(v, count))?;
         Ok(Neighbours {
             count,
             flat: lists.concat(),
@@ -130,24 +129,21 @@ impl Neighbours {
 /// `make(v)` for all `v` below `count`, in order, made in parallel.
 ///
 /// # Errors
-/// [`ErrorKind::Cancelled`] when `interrupted` returns true.
+/// [`ErrorKind::Cancelled`] when the job is stopped.
 pub(super) fn for_all<T: Send>(
     count: usize,
-    interrupted: &(dyn Fn() -> bool + Sync),
+    job: &Job<'_>,
     make: impl Fn(u32) -> T + Sync,
 ) -> Result<Vec<T>> {
     // `Cloud::new` has checked that 32 bits are enough.
-    let made: Option<Vec<Vec<T>>> = (0..count)
-        .step_by(THINGS_PER_CHECK)
-        .collect::<Vec<_>>()
+    (0..count as u32)
         .into_par_iter()
-        .map(|start| {
-            let end = count.min(start + THINGS_PER_CHECK);
-            (!interrupted()).then(|| (start as u32..end as u32).map(&make).collect())
+        .with_min_len(GRAIN)
+        .map(|v| {
+            job.tick(300)?;
+            Ok(make(v))
         })
-        .collect();
-    let made = made.ok_or_else(Error::cancelled)?;
-    Ok(made.into_iter().flatten().collect())
+        .collect()
 }
 
 /// The middle of the bounding box, and a power of two that brings its longest side to between 1/2 and 1.

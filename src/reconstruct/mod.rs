@@ -31,6 +31,8 @@ mod tangent;
 mod tests;
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::fill::progress::{ProgressCallback, Watch};
+use crate::job::Job;
 use crate::math::plane::principal_spreads;
 use crate::math::{Vec3, unit};
 use crate::mesh::attributes::Attributes;
@@ -39,8 +41,6 @@ use assemble::Assembler;
 use cloud::Cloud;
 use tangent::Tangent;
 
-/// How many points, triangles or stars are worked on between two questions whether to stop.
-const THINGS_PER_CHECK: usize = 1 << 10;
 /// Fewer different points than this make no surface.
 const FEWEST_POINTS: usize = 4;
 /// Spread across over spread along below which all points together count as a line.
@@ -146,7 +146,7 @@ pub struct PointReport {
 /// piece faces the direction of the coordinate axis nearest to its normal.
 ///
 /// Works in parallel in rayon's current pool; the result is the same for any number of threads.
-/// `interrupted` is asked from time to time, from any of its threads, and ends the work when true.
+/// `progress` is called about every 10 milliseconds, with no holes, and can cancel the work.
 ///
 /// # Errors
 /// [`ErrorKind::InvalidInput`] for a position that is not finite, normals or attributes of another length than
@@ -158,7 +158,17 @@ pub struct PointReport {
 pub fn mesh_from_points(
     cloud: PointCloud,
     options: &PointOptions,
-    interrupted: &(dyn Fn() -> bool + Sync),
+    progress: Option<ProgressCallback<'_>>,
+) -> Result<(TriMesh, PointReport)> {
+    let watch = Watch::new(0, None, progress);
+    reconstruct(cloud, options, &Job::new(&watch))
+}
+
+/// As [`mesh_from_points`], for a job of the caller.
+pub(crate) fn reconstruct(
+    cloud: PointCloud,
+    options: &PointOptions,
+    job: &Job<'_>,
 ) -> Result<(TriMesh, PointReport)> {
     options.check()?;
     let count = cloud.positions.len();
@@ -171,14 +181,14 @@ pub fn mesh_from_points(
     let distinct = Cloud::new(&cloud.positions)?;
     check_spread(&distinct)?;
 
-    let neighbours = distinct.all_nearest(options.neighbours, interrupted)?;
+    let neighbours = distinct.all_nearest(options.neighbours, job)?;
     let known: Vec<Option<Vec3>> = distinct
         .sources
         .iter()
         .map(|&v| known_normal(cloud.normals.as_deref(), v))
         .collect();
-    let mut normals = normals::estimate(&distinct, &neighbours, &known, interrupted)?;
-    orientation::agree(&distinct, &neighbours, &mut normals, &known, interrupted)?;
+    let mut normals = normals::estimate(&distinct, &neighbours, &known, job)?;
+    orientation::agree(&distinct, &neighbours, &mut normals, &known, job)?;
     let tangents: Vec<Option<Tangent>> = distinct
         .points
         .iter()
@@ -190,7 +200,7 @@ pub fn mesh_from_points(
         neighbours: &neighbours,
         tangents: &tangents,
         radius: options.radius.map(|r| r * distinct.scale),
-        interrupted,
+        job,
     }
     .run()?;
 

@@ -9,6 +9,7 @@
 
 use super::cloud::{Cloud, Neighbours, for_all};
 use crate::error::Result;
+use crate::job::Job;
 use crate::math::Vec3;
 use nalgebra::{Matrix3, SymmetricEigen};
 
@@ -22,14 +23,14 @@ const WIDER: [usize; 2] = [2, 4];
 /// Unit normals: the `known` ones, else estimated, of either sign; zero where the points near are on a line.
 ///
 /// # Errors
-/// `Cancelled` when `interrupted` returns true.
+/// `Cancelled` when the job is stopped.
 pub(super) fn estimate(
     cloud: &Cloud,
     neighbours: &Neighbours,
     known: &[Option<Vec3>],
-    interrupted: &(dyn Fn() -> bool + Sync),
+    job: &Job<'_>,
 ) -> Result<Vec<Vec3>> {
-    for_all(cloud.len(), interrupted, |v| {
+    for_all(cloud.len(), job, |v| {
         if let Some(normal) = known[v as usize] {
             return normal;
         }

@@ -12,7 +12,8 @@
 //! Complexity: O(n k log n) for k neighbours. Where surfaces nearly touch, the sign can be wrong.
 
 use super::cloud::{Cloud, Neighbours};
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::job::Job;
 use crate::math::Vec3;
 use rayon::prelude::*;
 
@@ -23,13 +24,13 @@ const SIGN_NEIGHBOURS: usize = 10;
 /// that of their surroundings; a part of the graph without any takes the sign of its first point.
 ///
 /// # Errors
-/// `Cancelled` when `interrupted` returns true.
+/// `Cancelled` when the job is stopped.
 pub(super) fn agree(
     cloud: &Cloud,
     neighbours: &Neighbours,
     normals: &mut [Vec3],
     known: &[Option<Vec3>],
-    interrupted: &(dyn Fn() -> bool + Sync),
+    job: &Job<'_>,
 ) -> Result<()> {
     let mut edges: Vec<Edge> = (0..cloud.len() as u32)
         .into_par_iter()
@@ -44,9 +45,7 @@ pub(super) fn agree(
                 .map(move |&w| Edge::between(cloud, normals, v, w))
         })
         .collect();
-    if interrupted() {
-        return Err(Error::cancelled());
-    }
+    job.ask()?;
     edges.par_sort_unstable_by(|a, b| a.cost.total_cmp(&b.cost).then(a.ends.cmp(&b.ends)));
 
     // The last set holds all known normals: they agree by definition.

@@ -14,6 +14,7 @@
 
 use super::cloud::{Cloud, Neighbours, for_all};
 use crate::error::Result;
+use crate::job::Job;
 use crate::math::Vec3;
 
 /// Automatic limit over the median radius of circumscribed circles. Of 100,000 triangles between points spread
@@ -41,16 +42,16 @@ pub(super) fn circumradius([a, b, c]: [Vec3; 3]) -> f64 {
 /// Where a neighbourhood has no triangle, that of all points is taken.
 ///
 /// # Errors
-/// `Cancelled` when `interrupted` returns true.
+/// `Cancelled` when the job is stopped.
 pub(super) fn limits(
     cloud: &Cloud,
     neighbours: &Neighbours,
     radii: &[Vec<f64>],
-    interrupted: &(dyn Fn() -> bool + Sync),
+    job: &Job<'_>,
 ) -> Result<Vec<f64>> {
     let medians: Vec<Option<f64>> = radii.iter().map(|r| median(r.clone())).collect();
     let overall = median(medians.iter().flatten().copied().collect()).unwrap_or(0.0);
-    for_all(cloud.len(), interrupted, |v| {
+    for_all(cloud.len(), job, |v| {
         let near = neighbours.of(v).iter().chain(std::iter::once(&v));
         let near = near.filter_map(|&w| medians[w as usize]);
         LIMIT_OVER_MEDIAN * median(near.collect()).unwrap_or(overall)

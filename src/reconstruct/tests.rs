@@ -3,6 +3,7 @@
 use super::*;
 use crate::boundary::loops::BoundaryLoops;
 use crate::fixtures::{self, Arrays, Noise, Point};
+use crate::job::Job;
 use crate::mesh::attributes::{AttributeValues, ScalarValues};
 use crate::quality::topology::{Topology, examine};
 use proptest::prelude::*;
@@ -12,7 +13,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn reconstruct(points: &[Point]) -> Result<(TriMesh, PointReport)> {
     let cloud = PointCloud::new(points.to_vec());
-    mesh_from_points(cloud, &PointOptions::default(), &|| false)
+    mesh_from_points(cloud, &PointOptions::default(), None)
 }
 
 /// The mesh of points that have a surface, checked for what always holds.
@@ -247,7 +248,7 @@ fn given_normals_decide_the_side() {
             normals: Some(normals),
             ..PointCloud::new(sphere.positions.clone())
         };
-        mesh_from_points(cloud, &PointOptions::default(), &|| false).unwrap()
+        mesh_from_points(cloud, &PointOptions::default(), None).unwrap()
     };
     let (mesh, report) = make(inward.clone());
     assert_eq!(report.estimated_normals, 0);
@@ -271,7 +272,7 @@ fn duplicates_stay_as_isolated_vertices_with_their_attributes() {
     let mut cloud = PointCloud::new(points.clone());
     let column = AttributeValues::Scalars(ScalarValues::U32(numbers));
     cloud.attributes.push("number", column.clone()).unwrap();
-    let (mesh, report) = mesh_from_points(cloud, &PointOptions::default(), &|| false).unwrap();
+    let (mesh, report) = mesh_from_points(cloud, &PointOptions::default(), None).unwrap();
     check(&points, &mesh, &report);
     assert_eq!(report.duplicates, 11);
     assert_eq!(report.unused, 0);
@@ -330,7 +331,7 @@ fn what_makes_no_surface_is_refused_with_a_reason() {
 fn options_and_lengths_are_checked() {
     let points = fixtures::sphere(4).positions;
     let refused = |cloud: PointCloud, options: &PointOptions| {
-        let error = mesh_from_points(cloud, options, &|| false).unwrap_err();
+        let error = mesh_from_points(cloud, options, None).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::InvalidInput, "{error}");
     };
     for radius in [0.0, -1.0, f64::NAN, f64::INFINITY] {
@@ -368,11 +369,7 @@ fn a_radius_leaves_open_what_is_larger() {
             radius: Some(radius),
             ..PointOptions::default()
         };
-        mesh_from_points(
-            PointCloud::new(with_hole.positions.clone()),
-            &options,
-            &|| false,
-        )
+        mesh_from_points(PointCloud::new(with_hole.positions.clone()), &options, None)
     };
     let (mesh, _) = make(1.2).unwrap();
     assert_eq!(loop_sizes(&mesh).len(), 2);
@@ -400,10 +397,11 @@ fn it_stops_when_asked_to() {
     let asked = AtomicUsize::new(0);
     let count = |stop_at: usize| {
         asked.store(0, Ordering::Relaxed);
-        mesh_from_points(
+        let stop = || asked.fetch_add(1, Ordering::Relaxed) >= stop_at;
+        super::reconstruct(
             PointCloud::new(points.clone()),
             &PointOptions::default(),
-            &|| asked.fetch_add(1, Ordering::Relaxed) >= stop_at,
+            &Job::new(&stop),
         )
         .map(|_| asked.load(Ordering::Relaxed))
     };

@@ -10,16 +10,14 @@
 //! straight ones by up to a sixth.
 
 use super::connectivity::{Connectivity, prev};
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
 use std::collections::VecDeque;
 
 /// Rims up to this many edges are filled at uniform density, with at most some 11,000 triangles.
 const UNIFORM_RIM: f64 = 250.0;
-
-/// Vertices looked at between two questions whether to go on.
-const VERTICES_PER_CHECK: usize = 1 << 14;
 
 /// Growth of the target length per distance from the rim, in the limit of very large rims. A round
 /// hole then takes about `11 m` triangles.
@@ -107,13 +105,13 @@ impl SizeField {
     ///
     /// # Errors
     /// `InvalidInput` unless there is one positive, finite size for each vertex or for each rim
-    /// vertex, and the grading is finite and not negative; `Cancelled` when `interrupted` returns true.
+    /// vertex, and the grading is finite and not negative; `Cancelled` when the job is stopped.
     pub(super) fn new(
         mesh: &Connectivity,
         points: &[Vec3],
         given: &[f64],
         grading: f64,
-        interrupted: &dyn Fn() -> bool,
+        job: &Job<'_>,
     ) -> Result<Self> {
         let (rim, all) = (mesh.rim_count(), mesh.vertex_count());
         if given.len() != rim && given.len() != all {
@@ -144,7 +142,7 @@ impl SizeField {
                 grading,
             });
         }
-        let (nearest, depths) = distances_from_rim(mesh, points, interrupted)?;
+        let (nearest, depths) = distances_from_rim(mesh, points, job)?;
         let smallest = given[..rim].iter().copied().fold(f64::INFINITY, f64::min);
         let sizes = (0..all).map(|v| {
             let growth = grading * depths[v];
@@ -222,7 +220,7 @@ impl SizeField {
 fn distances_from_rim(
     mesh: &Connectivity,
     points: &[Vec3],
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<(Vec<u32>, Vec<f64>)> {
     let (rim, all) = (mesh.rim_count(), mesh.vertex_count());
     let mut nearest: Vec<u32> = (0..all as u32)
@@ -235,12 +233,8 @@ fn distances_from_rim(
         let mut waiting: VecDeque<u32> = (0..rim as u32).collect();
         let mut queued = vec![true; all];
         queued[rim..].fill(false);
-        let mut seen = 0;
         while let Some(v) = waiting.pop_front() {
-            seen += 1;
-            if seen % VERTICES_PER_CHECK == 0 {
-                proceed_unless(interrupted)?;
-            }
+            job.tick(3)?;
             queued[v as usize] = false;
             let neighbours = mesh
                 .corners(v)
@@ -325,7 +319,7 @@ mod tests {
         let surface = fan_patch(disc_rim(5));
         let mesh = Connectivity::build(surface.triangles, 5, 5).unwrap();
         let bad = |sizes: &[f64], grading| {
-            SizeField::new(&mesh, &surface.points, sizes, grading, &|| false).is_err()
+            SizeField::new(&mesh, &surface.points, sizes, grading, &Job::unlimited()).is_err()
         };
         assert!(bad(&[1.0; 4], 0.0) && bad(&[1.0; 6], 0.0) && bad(&[], 0.0));
         assert!(bad(&[0.0; 5], 0.0) && bad(&[f64::NAN; 5], 0.0));
@@ -339,7 +333,7 @@ mod tests {
         let given = [1.0, 2.0, 3.0, 4.0];
         for (grading, expected) in [(0.0, 2.0), (0.5, 2.0 + 0.5 * 0.5_f64.sqrt())] {
             let mut sizes =
-                SizeField::new(&mesh, &surface.points, &given, grading, &|| false).unwrap();
+                SizeField::new(&mesh, &surface.points, &given, grading, &Job::unlimited()).unwrap();
             sizes.push_midpoint(&surface.points, &Vec3::zeros(), [0, 2], [1, 3]);
             assert!(
                 (sizes.at(4) - expected).abs() < 1e-12,
@@ -357,7 +351,7 @@ mod tests {
         let triangles = (0..6).map(|i| [6, i, (i + 1) % 6]).collect();
         let mesh = Connectivity::build(triangles, 7, 6).unwrap();
         let given = [1.0, 1.0, 7.0, 1.0, 1.0, 1.0];
-        let sizes = SizeField::new(&mesh, &points, &given, 0.5, &|| false).unwrap();
+        let sizes = SizeField::new(&mesh, &points, &given, 0.5, &Job::unlimited()).unwrap();
         assert!(
             (sizes.at(6) - (7.0 + 0.5 * 0.1)).abs() < 1e-9,
             "{}",

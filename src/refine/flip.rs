@@ -11,7 +11,8 @@
 //! guarantees that the flips end by themselves. Each call therefore has a flip budget.
 
 use super::connectivity::{Connectivity, Halfedge, prev};
-use crate::error::{Result, proceed_unless};
+use crate::error::Result;
+use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
 
 /// Opposite angles count as more than π when the sine of their sum is below minus this. Cocircular
@@ -26,29 +27,22 @@ const MIN_NORMAL_COSINE: f64 = 0.3;
 /// is for unlucky initial triangulations.
 const FLIPS_PER_EDGE: usize = 16;
 
-/// Edges tested between two questions whether to go on.
-const TESTS_PER_CHECK: u32 = 1 << 14;
-
 /// Whether an edge between these two rim vertices exists outside the patch.
 pub(super) type Blocked<'a> = dyn Fn(u32, u32) -> bool + 'a;
 
 /// Flips edges of one patch; owns the stack so that it is allocated once.
 pub(super) struct Flipper<'a> {
     blocked: &'a Blocked<'a>,
-    interrupted: &'a dyn Fn() -> bool,
+    job: &'a Job<'a>,
     stack: Vec<Halfedge>,
-    /// Edges that may still be tested before the next question whether to go on.
-    unasked: u32,
 }
 
 impl<'a> Flipper<'a> {
-    /// `interrupted` is asked from time to time; true stops the work.
-    pub(super) fn new(blocked: &'a Blocked<'a>, interrupted: &'a dyn Fn() -> bool) -> Self {
+    pub(super) fn new(blocked: &'a Blocked<'a>, job: &'a Job<'a>) -> Self {
         Self {
             blocked,
-            interrupted,
+            job,
             stack: Vec::new(),
-            unasked: TESTS_PER_CHECK,
         }
     }
 
@@ -56,7 +50,7 @@ impl<'a> Flipper<'a> {
     /// of flips.
     ///
     /// # Errors
-    /// `Cancelled` when interrupted.
+    /// `Cancelled` when the job is stopped.
     pub(super) fn restore(
         &mut self,
         mesh: &mut Connectivity,
@@ -98,11 +92,7 @@ impl<'a> Flipper<'a> {
     ) -> Result<()> {
         let mut edge = Some(first);
         while let Some(h) = edge {
-            self.unasked -= 1;
-            if self.unasked == 0 {
-                self.unasked = TESTS_PER_CHECK;
-                proceed_unless(self.interrupted)?;
-            }
+            self.job.tick(1)?;
             if let Some(g) = mesh.opposite(h)
                 && *budget > 0
                 && wants_flip(mesh, points, h, g)
@@ -177,7 +167,7 @@ pub(super) fn count_violations(
     points: &[Vec3],
     blocked: &Blocked<'_>,
 ) -> usize {
-    let flipper = Flipper::new(blocked, &|| false);
+    let flipper = Flipper::new(blocked, &crate::job::UNLIMITED);
     (0..mesh.halfedge_count())
         .filter(|&h| {
             mesh.opposite(h).is_some_and(|g| {
@@ -191,6 +181,7 @@ pub(super) fn count_violations(
 mod tests {
     use super::super::fixtures::{disc_rim, fan, star_rim};
     use super::*;
+    use crate::job::UNLIMITED;
     use proptest::prelude::*;
 
     fn connect(points: &[Vec3], triangles: Vec<[u32; 3]>) -> Connectivity {
@@ -198,7 +189,7 @@ mod tests {
     }
 
     fn flip_all(mesh: &mut Connectivity, points: &[Vec3], blocked: &Blocked<'_>) -> usize {
-        let mut flipper = Flipper::new(blocked, &|| false);
+        let mut flipper = Flipper::new(blocked, &UNLIMITED);
         flipper.restore_all(mesh, points).unwrap()
     }
 

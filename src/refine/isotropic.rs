@@ -20,7 +20,8 @@ use super::density::SizeField;
 use super::flip::{Blocked, Flipper};
 use super::locality::renumber;
 use super::relax::relax;
-use crate::error::{Error, ErrorKind, Result, proceed_every, proceed_unless};
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::{Job, UNLIMITED};
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
 use std::cmp::Reverse;
@@ -57,9 +58,6 @@ const SMALL_RIM_FACTOR: f64 = 1.75;
 /// an edge may be: splitting shortens neither for good.
 const HOLDING: f64 = 2.0;
 
-/// Edges looked at or vertices moved between two questions whether to go on.
-const STEPS_PER_CHECK: usize = 1 << 13;
-
 /// How to refine.
 #[derive(Clone)]
 pub(crate) struct RefineOptions<'a> {
@@ -76,8 +74,8 @@ pub(crate) struct RefineOptions<'a> {
     pub(crate) final_relaxations: usize,
     /// Refinement that needs more vertices than this fails.
     pub(crate) max_vertices: usize,
-    /// Asked from time to time; true ends the work with a `Cancelled` error.
-    pub(crate) interrupted: &'a dyn Fn() -> bool,
+    /// Ends the work with a `Cancelled` error when it is stopped.
+    pub(crate) job: &'a Job<'a>,
 }
 
 impl Default for RefineOptions<'_> {
@@ -89,7 +87,7 @@ impl Default for RefineOptions<'_> {
             pass_relaxations: 2,
             final_relaxations: 3,
             max_vertices: 10_000_000,
-            interrupted: &|| false,
+            job: &UNLIMITED,
         }
     }
 }
@@ -131,32 +129,26 @@ pub(crate) fn refine(
             "a patch point is not finite",
         ));
     }
-    proceed_unless(options.interrupted)?;
+    options.job.ask()?;
     let mesh = Connectivity::build(
         surface.triangles.clone(),
         surface.points.len(),
         surface.rim_count,
     )?;
-    proceed_unless(options.interrupted)?;
-    let field = SizeField::new(
-        &mesh,
-        &surface.points,
-        sizes,
-        options.grading,
-        options.interrupted,
-    )?;
+    options.job.ask()?;
+    let field = SizeField::new(&mesh, &surface.points, sizes, options.grading, options.job)?;
     let mut refiner = Refiner {
         points: surface.points.clone(),
         mesh,
         sizes: field,
         options,
-        flipper: Flipper::new(blocked, options.interrupted),
+        flipper: Flipper::new(blocked, options.job),
         dirty: Vec::new(),
         ordered: surface.points.len().max(RENUMBER_FROM),
         report: RefineReport::default(),
     };
     refiner.run()?;
-    proceed_unless(options.interrupted)?;
+    options.job.ask()?;
     surface.points = refiner.points;
     surface.triangles = refiner.mesh.triangles().to_vec();
     *sizes = refiner.sizes.into_sizes();
@@ -217,19 +209,19 @@ impl Refiner<'_> {
         let mut near: Option<Vec<u32>> = None;
         for _ in 0..MAX_PASSES {
             let before = self.mesh.vertex_count();
-            proceed_unless(self.options.interrupted)?;
+            self.options.job.ask()?;
             let long = match &near {
                 Some(near) => self.long_edges_at(near),
                 None => self.all_long_edges(),
             };
-            proceed_unless(self.options.interrupted)?;
+            self.options.job.ask()?;
             let added = self.split_edges(long)?;
             if added == 0 && near.take().is_none() {
                 break;
             }
             self.restore_dirty()?;
             let local = !self.order_if_grown()? && added < local_limit(before);
-            proceed_unless(self.options.interrupted)?;
+            self.options.job.ask()?;
             near = (local && added > 0).then(|| self.vertices_near(before as u32));
             for _ in 0..self.options.pass_relaxations {
                 match &near {
@@ -249,9 +241,9 @@ impl Refiner<'_> {
         let grown = self.mesh.vertex_count() as f64 > RENUMBER_GROWTH * self.ordered as f64;
         if grown {
             self.ordered = self.mesh.vertex_count();
-            proceed_unless(self.options.interrupted)?;
+            self.options.job.ask()?;
             renumber(&mut self.mesh, &mut self.points, &mut self.sizes);
-            proceed_unless(self.options.interrupted)?;
+            self.options.job.ask()?;
         }
         Ok(grown)
     }
@@ -340,8 +332,8 @@ impl Refiner<'_> {
         let before = self.mesh.vertex_count();
         long.sort_by_key(|&(class, _)| class);
         let mut used = vec![false; self.mesh.triangles().len()];
-        for (step, (_, h)) in long.into_iter().enumerate() {
-            self.check_every(step)?;
+        for (_, h) in long {
+            self.options.job.tick(5)?;
             let Some(g) = self.mesh.opposite(h) else {
                 continue;
             };
@@ -392,23 +384,17 @@ impl Refiner<'_> {
     fn relax_all(&mut self) -> Result<()> {
         self.report.last_move = 0.0;
         for v in self.mesh.rim_count() as u32..self.mesh.vertex_count() as u32 {
-            self.check_every(v as usize)?;
+            self.options.job.tick(5)?;
             self.relax_vertex(v);
         }
         self.restore_all()
     }
 
-    /// Asks whether to go on at every so many steps of a long loop.
-    fn check_every(&self, step: usize) -> Result<()> {
-        proceed_every(STEPS_PER_CHECK, step, self.options.interrupted)?;
-        Ok(())
-    }
-
     /// Relaxes interior `vertices` and restores the edges round them.
     fn relax_some(&mut self, vertices: &[u32]) -> Result<()> {
         self.report.last_move = 0.0;
-        for (step, &v) in vertices.iter().enumerate() {
-            self.check_every(step)?;
+        for &v in vertices {
+            self.options.job.tick(5)?;
             self.relax_vertex(v);
             self.dirty
                 .extend(self.mesh.corners(v).flat_map(|h| [h, next(h)]));

@@ -69,6 +69,7 @@ fn spread(x: u64) -> u64 {
 mod tests {
     use super::super::fixtures::{disc_rim, fan_patch};
     use super::*;
+    use crate::job::Job;
 
     #[test]
     fn spreading_puts_every_bit_on_every_third_place() {
@@ -89,7 +90,7 @@ mod tests {
             &points,
             &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0],
             0.1,
-            &|| false,
+            &Job::unlimited(),
         )
         .unwrap();
         for h in 0..30 {

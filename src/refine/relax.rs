@@ -175,6 +175,7 @@ fn way_to_fold(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::job::Job;
     use crate::math::unit;
     use crate::patch::PatchSurface;
     use proptest::prelude::*;
@@ -204,7 +205,7 @@ mod tests {
             &surface.points,
             &vec![1.0; rim_count],
             grading,
-            &|| false,
+            &Job::unlimited(),
         )
         .unwrap()
     }

@@ -13,7 +13,8 @@
 //! comes close to itself.
 
 use super::polygon::{ChordRules, FlatnessTest, HolePolygon};
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
@@ -27,8 +28,6 @@ const FACING_SHARE: f64 = 0.5;
 /// Factor of the cost of an ear that does not face like its rim, as at the flat end of a tube, where the
 /// rim's normals say nothing.
 const DISTRUST: f64 = 8.0;
-/// Ears cut between two questions whether to go on.
-const EARS_PER_CHECK: usize = 1024;
 
 /// What ear clipping leaves.
 pub(super) struct Clipped {
@@ -46,15 +45,15 @@ pub(super) struct Clipped {
 /// whose edge may arise.
 ///
 /// # Errors
-/// `Cancelled` when `interrupted` returns true.
+/// `Cancelled` when the job is stopped.
 pub(super) fn clip(
     polygon: &HolePolygon<'_>,
     rules: &ChordRules<'_>,
     target: usize,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<Clipped> {
     let mut clipper = Clipper::new(polygon, rules);
-    clipper.run(target.max(3), interrupted)?;
+    clipper.run(target.max(3), job)?;
     Ok(clipper.finish())
 }
 
@@ -157,7 +156,7 @@ impl<'a> Clipper<'a> {
             && self.rules.admit(i, j)
     }
 
-    fn run(&mut self, target: usize, interrupted: &dyn Fn() -> bool) -> Result<()> {
+    fn run(&mut self, target: usize, job: &Job<'_>) -> Result<()> {
         let mut left = self.polygon.len();
         while left > target {
             let Some(Reverse(entry)) = self.queue.pop() else {
@@ -171,9 +170,7 @@ impl<'a> Clipper<'a> {
             if !self.may_join(before as usize, after as usize) {
                 continue;
             }
-            if left.is_multiple_of(EARS_PER_CHECK) && interrupted() {
-                return Err(Error::cancelled());
-            }
+            job.tick(30)?;
             self.cut(entry.position);
             left -= 1;
             for neighbour in [before, after] {
@@ -241,7 +238,13 @@ mod tests {
     use proptest::prelude::*;
 
     fn clip_all(polygon: &HolePolygon<'_>, target: usize) -> Clipped {
-        clip(polygon, &ChordRules::new(polygon), target, &|| false).expect("not interrupted")
+        clip(
+            polygon,
+            &ChordRules::new(polygon),
+            target,
+            &Job::unlimited(),
+        )
+        .expect("not job")
     }
 
     /// The ears and the rest closed by a fan, where the rest is a triangle.
@@ -354,7 +357,7 @@ mod tests {
     fn an_interrupt_is_heard() {
         let rim = Rim::regular(10_000);
         let polygon = rim.polygon();
-        let stopped = clip(&polygon, &ChordRules::new(&polygon), 3, &|| true);
+        let stopped = clip(&polygon, &ChordRules::new(&polygon), 3, &Job::new(&|| true));
         assert_eq!(
             stopped.err().map(|e| e.kind()),
             Some(crate::error::ErrorKind::Cancelled)

@@ -18,11 +18,14 @@
 
 use super::polygon::{ChordRules, FlatnessTest, HolePolygon};
 use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use crate::math::Vec3;
 use std::collections::BTreeSet;
 
 /// Largest polygon that is searched: 90 MB of tables and a few seconds.
 pub(crate) const MAX_SEARCHED: usize = 2048;
+/// Candidates for a triangle, two of them, that are looked at in the time that a tick stands for.
+const CANDIDATES_PER_TICK: usize = 20;
 /// Searches that may be spent on telling apart chords that join the same two vertices.
 const MAX_SEARCHES: usize = 64;
 /// Normal where no triangle is known. Every comparison with an angle to it is false.
@@ -32,15 +35,10 @@ const IMPOSSIBLE: f64 = f64::INFINITY;
 
 /// Finds the triangulation, as triangles of positions oriented like the polygon.
 ///
-/// `interrupted` is asked about every ten milliseconds at most and ends the search when true.
-///
 /// # Errors
 /// `Limit` beyond [`MAX_SEARCHED`] vertices; `Geometry` or `Topology` when every triangulation has a
 /// triangle without area or an edge that must not arise; `Cancelled`.
-pub(super) fn search(
-    polygon: &HolePolygon<'_>,
-    interrupted: &dyn Fn() -> bool,
-) -> Result<Vec<[u32; 3]>> {
+pub(super) fn search(polygon: &HolePolygon<'_>, job: &Job<'_>) -> Result<Vec<[u32; 3]>> {
     let len = polygon.len();
     if len > MAX_SEARCHED {
         let message = format!("the minimum-weight search takes {MAX_SEARCHED} vertices, not {len}");
@@ -53,7 +51,7 @@ pub(super) fn search(
     for _ in 0..MAX_SEARCHES {
         let Some(dropped) = pending.pop() else { break };
         let admit = |i: usize, j: usize| !dropped.contains(&(i, j)) && rules.admit(i, j);
-        match solve(polygon, &admit, interrupted) {
+        match solve(polygon, &admit, job) {
             Ok(triangles) => match find_twin_chords(&rules, &triangles) {
                 None => return Ok(triangles),
                 Some(twins) => pending.extend(twins.map(|twin| {
@@ -153,7 +151,7 @@ struct Candidates<'t> {
 fn solve(
     polygon: &HolePolygon<'_>,
     admit: &dyn Fn(usize, usize) -> bool,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<Vec<[u32; 3]>> {
     let len = polygon.len();
     let outside = |i: usize| polygon.outside_normals[i].unwrap_or(NO_NORMAL);
@@ -167,9 +165,7 @@ fn solve(
     };
     let mut any_barred = false;
     for j in 1..len {
-        if interrupted() {
-            return Err(Error::cancelled());
-        }
+        job.tick(j * j / CANDIDATES_PER_TICK)?;
         for i in (0..j).rev() {
             let row = table.cell(i, i + 1);
             let closing = i == 0 && j + 1 == len;
@@ -387,7 +383,7 @@ mod tests {
     }
 
     fn found_weight(polygon: &HolePolygon<'_>) -> (f64, f64) {
-        let triangles = search(polygon, &|| false).expect("a triangulation");
+        let triangles = search(polygon, &Job::unlimited()).expect("a triangulation");
         let weight = weight_of(polygon, &triangles).expect("a disk");
         (weight.max_dihedral, weight.area)
     }
@@ -412,7 +408,7 @@ mod tests {
             match weight_by_naive_recurrence(&polygon) {
                 Some(naive) => prop_assert!(same(found_weight(&polygon), naive)),
                 None => {
-                    let error = search(&polygon, &|| false).expect_err("the naive search fails");
+                    let error = search(&polygon, &Job::unlimited()).expect_err("the naive search fails");
                     prop_assert_eq!(error.kind(), ErrorKind::Topology);
                 }
             }
@@ -454,7 +450,7 @@ mod tests {
             } else {
                 vec![at(0, 1, 2), at(0, 1, 2), at(0, 2, 3), at(0, 2, 3)]
             };
-            let triangles = search(&rim.polygon(), &|| false).expect("two triangulations");
+            let triangles = search(&rim.polygon(), &Job::unlimited()).expect("two triangulations");
             assert!(
                 triangles
                     .iter()
@@ -467,7 +463,7 @@ mod tests {
     #[test]
     fn a_triangle_is_its_own_triangulation() {
         assert_eq!(
-            search(&Rim::regular(3).polygon(), &|| false),
+            search(&Rim::regular(3).polygon(), &Job::unlimited()),
             Ok(vec![[0, 1, 2]])
         );
     }
@@ -475,7 +471,7 @@ mod tests {
     #[test]
     fn collinear_runs_get_no_flat_triangles() {
         let rim = Rim::planar(&subdivided(&[[0., 0.], [4., 0.], [4., 3.], [0., 3.]], 0.5));
-        let triangles = search(&rim.polygon(), &|| false).expect("a triangulation");
+        let triangles = search(&rim.polygon(), &Job::unlimited()).expect("a triangulation");
         let least = triangles
             .iter()
             .map(|t| rim.area(t))
@@ -489,7 +485,7 @@ mod tests {
         let line: Vec<[f64; 2]> = (0..9)
             .map(|i| [f64::from(i) * 0.1, f64::from(i) * 0.3])
             .collect();
-        let error = search(&Rim::planar(&line).polygon(), &|| false).expect_err("no area");
+        let error = search(&Rim::planar(&line).polygon(), &Job::unlimited()).expect_err("no area");
         assert_eq!(error.kind(), ErrorKind::Geometry);
     }
 
@@ -501,7 +497,7 @@ mod tests {
         ));
         for start in 0..rim.points.len() {
             let rim = rim.rotated(start);
-            let triangles = search(&rim.polygon(), &|| false).expect("a triangulation");
+            let triangles = search(&rim.polygon(), &Job::unlimited()).expect("a triangulation");
             assert!((rim.areas(&triangles) - 7.0).abs() < 1e-12, "{start}");
         }
     }
@@ -510,7 +506,8 @@ mod tests {
     fn no_two_vertices_are_joined_twice() {
         // A triangle inside a triangle, bridged: most triangulations join some pair twice.
         let rim = Rim::bridged_triangles();
-        let triangles = search(&rim.polygon(), &|| false).expect("the ring has a triangulation");
+        let triangles =
+            search(&rim.polygon(), &Job::unlimited()).expect("the ring has a triangulation");
         assert!(rim.joins_no_vertices_twice(&triangles));
         assert!((rim.areas(&triangles) - rim.planar_area()).abs() < 1e-12);
         let mut with_twins = 0;
@@ -525,7 +522,12 @@ mod tests {
 
     #[test]
     fn too_large_a_polygon_is_refused_and_an_interrupt_is_heard() {
-        let kind = |rim: Rim, stop: bool| search(&rim.polygon(), &|| stop).expect_err("").kind();
+        let kind = |rim: Rim, stop: bool| {
+            let stop = || stop;
+            search(&rim.polygon(), &Job::new(&stop))
+                .expect_err("")
+                .kind()
+        };
         assert_eq!(
             kind(Rim::regular(MAX_SEARCHED + 1), false),
             ErrorKind::Limit

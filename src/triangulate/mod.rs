@@ -11,7 +11,8 @@ pub(crate) mod unfold;
 
 pub(crate) use polygon::{HolePolygon, Weight, weight_of};
 
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::{Job, UNLIMITED};
 use crate::math::Vec3;
 use ear_clip::Clipped;
 use polygon::ChordRules;
@@ -24,8 +25,8 @@ pub(crate) struct TriangulationOptions<'a> {
     pub(crate) exact_limit: usize,
     /// Vertices that ear clipping leaves to the search.
     pub(crate) ear_remainder: usize,
-    /// Asked from time to time; true ends the work with a `Cancelled` error.
-    pub(crate) interrupted: &'a dyn Fn() -> bool,
+    /// Ends the work with a `Cancelled` error when it is stopped.
+    pub(crate) job: &'a Job<'a>,
 }
 
 impl Default for TriangulationOptions<'_> {
@@ -33,7 +34,7 @@ impl Default for TriangulationOptions<'_> {
         Self {
             exact_limit: 150,
             ear_remainder: 64,
-            interrupted: &|| false,
+            job: &UNLIMITED,
         }
     }
 }
@@ -67,11 +68,11 @@ pub(crate) fn triangulate(
 ) -> Result<Triangulation> {
     polygon.validate()?;
     let triangles = if polygon.len() <= options.exact_limit {
-        min_weight::search(polygon, options.interrupted)?
+        min_weight::search(polygon, options.job)?
     } else {
         clip_then_search(polygon, options)?
     };
-    proceed_unless(options.interrupted)?;
+    options.job.ask()?;
     let weight = weight_of(polygon, &triangles)?;
     Ok(Triangulation { triangles, weight })
 }
@@ -84,8 +85,8 @@ fn clip_then_search(
     let mut failure = None;
     for doubling in 0..=MAX_REMAINDER_DOUBLINGS {
         let target = options.ear_remainder.max(3).saturating_mul(1 << doubling);
-        proceed_unless(options.interrupted)?;
-        let clipped = ear_clip::clip(polygon, &rules, target, options.interrupted)?;
+        options.job.ask()?;
+        let clipped = ear_clip::clip(polygon, &rules, target, options.job)?;
         match search_rest(polygon, &rules, &clipped, options) {
             Ok(rest) => {
                 let mut triangles = clipped.ears;
@@ -125,7 +126,7 @@ fn search_rest(
         vertex_ids: &ids,
         blocked: &blocked,
     };
-    let triangles = min_weight::search(&rest, options.interrupted)?;
+    let triangles = min_weight::search(&rest, options.job)?;
     Ok(triangles
         .iter()
         .map(|t| t.map(|k| clipped.rest[k as usize]))

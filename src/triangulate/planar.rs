@@ -9,12 +9,10 @@
 //! Not guaranteed: the same triangles in another numbering where four vertices lie on a circle.
 
 use super::simple_polygon::{Point2, find_contact, is_counter_clockwise};
-use crate::error::{Error, ErrorKind, Result, proceed_every, proceed_unless};
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use spade::handles::{FixedFaceHandle, FixedVertexHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, Triangulation, mitigate_underflow};
-
-/// Points between two questions whether to stop: about a millisecond.
-const INSERTIONS_PER_CHECK: usize = 256;
 
 type Delaunay = ConstrainedDelaunayTriangulation<spade::Point2<f64>>;
 
@@ -32,7 +30,7 @@ type Delaunay = ConstrainedDelaunayTriangulation<spade::Point2<f64>>;
 pub(crate) fn triangulate_planar_region(
     polygons: &[impl AsRef<[Point2]>],
     interior: &[Point2],
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<Vec<[u32; 3]>> {
     let points: Vec<spade::Point2<f64>> = polygons
         .iter()
@@ -54,7 +52,7 @@ pub(crate) fn triangulate_planar_region(
             .iter()
             .map(|p| [p.x, p.y])
             .collect();
-        if let Some((i, j)) = find_contact(&rim, interrupted)? {
+        if let Some((i, j)) = find_contact(&rim, job)? {
             return Err(geometry(format!(
                 "edges {i} and {j} of a polygon of {n} vertices meet in the plane"
             )));
@@ -70,8 +68,8 @@ pub(crate) fn triangulate_planar_region(
 
     let mut delaunay = Delaunay::new();
     let mut vertices = Vec::with_capacity(m + k);
-    for (i, &p) in points.iter().enumerate() {
-        proceed_every(INSERTIONS_PER_CHECK, i, interrupted)?;
+    for &p in &points {
+        job.tick(300)?;
         let vertex = delaunay.insert(p);
         vertices.push(vertex.map_err(|e| invalid(format!("a point cannot be used: {e}")))?);
     }
@@ -84,13 +82,13 @@ pub(crate) fn triangulate_planar_region(
         .map(|(a, b)| if is_outer_ccw { (a, b) } else { (b, a) })
         .map(|(a, b)| (vertices[a], vertices[b]))
         .collect();
-    for (i, &(a, b)) in edges.iter().enumerate() {
-        proceed_every(INSERTIONS_PER_CHECK, i, interrupted)?;
+    for &(a, b) in &edges {
+        job.tick(300)?;
         if delaunay.try_add_constraint(a, b).is_empty() && polygons.len() > 1 {
             return Err(geometry("two polygons meet in the plane".to_owned()));
         }
     }
-    proceed_unless(interrupted)?;
+    job.ask()?;
     let triangles = inner_triangles(&delaunay, &edges, is_outer_ccw);
     // A constraint through an interior point is cut in two there, so it leads no fill inside; a point
     // outside adds no triangle inside.
@@ -161,7 +159,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     fn triangulate_planar(polygon: &[Point2], interior: &[Point2]) -> Result<Vec<[u32; 3]>> {
-        triangulate_planar_region(&[polygon], interior, &|| false)
+        triangulate_planar_region(&[polygon], interior, &Job::unlimited())
     }
 
     fn star(radii: &[f64]) -> Vec<Point2> {
@@ -325,7 +323,8 @@ mod tests {
             if is_reversed {
                 polygons.iter_mut().for_each(|p| p.reverse());
             }
-            let triangles = triangulate_planar_region(&polygons, &interior, &|| false).unwrap();
+            let triangles =
+                triangulate_planar_region(&polygons, &interior, &Job::unlimited()).unwrap();
             assert_eq!(triangles.len(), 36 - 2 + 2 * 17 + 2);
             let points: Vec<Point2> = polygons
                 .iter()
@@ -350,7 +349,7 @@ mod tests {
         let mut inner = star(&[1.0; 12]);
         let cases = |inner: &[Point2], shift: f64| {
             let moved = inner.iter().map(|p| [p[0] + shift, p[1]]).collect();
-            triangulate_planar_region(&[outer.clone(), moved], &[], &|| false)
+            triangulate_planar_region(&[outer.clone(), moved], &[], &Job::unlimited())
         };
         assert!(cases(&inner, 0.0).is_err());
         inner.reverse();
@@ -358,7 +357,7 @@ mod tests {
         for shift in [1.5, 10.0] {
             assert!(cases(&inner, shift).is_err());
         }
-        let error = triangulate_planar_region(&[outer], &[], &|| true).unwrap_err();
+        let error = triangulate_planar_region(&[outer], &[], &Job::new(&|| true)).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Cancelled);
     }
 }

@@ -6,12 +6,9 @@
 //! The signs are those of exact arithmetic unless a product of two coordinate differences leaves the range of
 //! double precision; callers keep coordinates in it.
 
-use crate::error::{Result, proceed_every};
+use crate::error::Result;
+use crate::job::Job;
 use robust::{Coord, orient2d};
-
-/// Edges that are compared with the others between two questions whether to stop: about a millisecond's work, in a
-/// polygon without a preferred direction.
-const EDGES_PER_CHECK: usize = 128;
 
 /// A point of the plane.
 pub(crate) type Point2 = [f64; 2];
@@ -23,15 +20,12 @@ pub(crate) type Point2 = [f64; 2];
 /// All coordinates must be finite.
 ///
 /// # Errors
-/// `Cancelled` when `interrupted` returns true.
+/// `Cancelled` when the job is stopped.
 ///
 /// # Complexity
 /// O(m log m) and one test for each pair of edges whose ranges of x overlap: about m^1.5 pairs for a polygon
 /// without a preferred direction, m² at worst.
-pub(crate) fn find_contact(
-    polygon: &[Point2],
-    interrupted: &dyn Fn() -> bool,
-) -> Result<Option<(usize, usize)>> {
+pub(crate) fn find_contact(polygon: &[Point2], job: &Job<'_>) -> Result<Option<(usize, usize)>> {
     let m = polygon.len();
     if m < 3 {
         return Ok(Some((0, 0)));
@@ -44,7 +38,7 @@ pub(crate) fn find_contact(
     let mut order: Vec<usize> = (0..m).collect();
     order.sort_by(|&i, &j| range(i, 0).0.total_cmp(&range(j, 0).0).then(i.cmp(&j)));
     for (place, &i) in order.iter().enumerate() {
-        proceed_every(EDGES_PER_CHECK, place, interrupted)?;
+        job.tick(200)?;
         if ends(i)[0] == ends(i)[1] {
             return Ok(Some((i, i)));
         }
@@ -120,7 +114,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn contact(polygon: &[Point2]) -> Option<(usize, usize)> {
-        find_contact(polygon, &|| false).unwrap()
+        find_contact(polygon, &Job::unlimited()).unwrap()
     }
 
     /// Every pair, by exact integer arithmetic on small coordinates.

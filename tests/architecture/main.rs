@@ -19,7 +19,8 @@ use std::path::{Path, PathBuf};
 /// find its place here first.
 const RULES: &[(&str, &[&str])] = &[
     ("error", &[]),
-    ("math", &["error"]),
+    ("job", &["error"]),
+    ("math", &["error", "job"]),
     // Who is whose neighbour: no coordinates.
     ("mesh::connectivity", &CONNECTIVITY),
     ("mesh::linking", &CONNECTIVITY),
@@ -27,23 +28,32 @@ const RULES: &[(&str, &[&str])] = &[
     ("mesh::rim_table", &CONNECTIVITY),
     ("mesh::survey", &CONNECTIVITY),
     ("mesh::defects", &["error"]),
-    ("mesh", &["error", "math"]),
-    ("boundary", &["error", "math", "mesh"]),
-    ("crease", &["error", "math", "mesh", "patch"]),
-    ("quality", &["error", "math", "mesh"]),
-    ("patch", &["error", "math", "mesh"]),
+    ("mesh", &["error", "job", "math"]),
+    ("boundary", &["error", "job", "math", "mesh"]),
+    ("crease", &["error", "job", "math", "mesh", "patch"]),
+    ("quality", &["error", "job", "math", "mesh"]),
+    ("patch", &["error", "job", "math", "mesh"]),
     // What makes a patch knows nothing of loops, of the pipeline, of its judges or of each other.
-    ("triangulate", &["error", "math", "mesh", "patch"]),
-    ("refine", &["error", "math", "mesh", "patch"]),
-    ("fair", &["error", "math", "mesh", "patch"]),
+    ("triangulate", &["error", "job", "math", "mesh", "patch"]),
+    ("refine", &["error", "job", "math", "mesh", "patch"]),
+    ("fair", &["error", "job", "math", "mesh", "patch"]),
     (
         "predict",
-        &["error", "math", "mesh", "patch", "crease", "triangulate"],
+        &[
+            "error",
+            "job",
+            "math",
+            "mesh",
+            "patch",
+            "crease",
+            "triangulate",
+        ],
     ),
     (
         "fill",
         &[
             "error",
+            "job",
             "math",
             "mesh",
             "boundary",
@@ -56,14 +66,20 @@ const RULES: &[(&str, &[&str])] = &[
             "fair",
         ],
     ),
+    // What a caller is told, and how it stops the work.
+    ("fill::progress", &["error", "job"]),
     // From points to a mesh: before there are loops to fill.
-    ("reconstruct", &["error", "math", "mesh"]),
+    (
+        "reconstruct",
+        &["error", "job", "math", "mesh", "fill::progress"],
+    ),
     // Plain arrays in and out.
     ("io", &["error", "math", "mesh::attributes"]),
     (
         "ffi",
         &[
             "error",
+            "job",
             "math",
             "mesh",
             "boundary",

@@ -49,7 +49,7 @@ pub(crate) fn run(args: &PointsArgs) -> Result<Outcome, Failure> {
     point_options.radius = args.radius;
     point_options.neighbours = args.neighbours.into();
     let (mut mesh, points) =
-        mesh_from_points(cloud, &point_options, &|| false).map_err(|e| match e.kind() {
+        mesh_from_points(cloud, &point_options, None).map_err(|e| match e.kind() {
             ErrorKind::InvalidInput | ErrorKind::Geometry => {
                 Failure::file(format!("{}: {e}", args.input.display()))
             }

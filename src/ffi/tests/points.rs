@@ -78,7 +78,7 @@ fn a_mesh_from_points_is_that_of_the_rust_call() {
     let (expected, report) = mesh_from_points(
         PointCloud::new(points.clone()),
         &PointOptions::default(),
-        &|| false,
+        None,
     )
     .unwrap();
     let view = rows(&points, HOLEFILL_TYPE_F64);

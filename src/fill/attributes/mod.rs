@@ -15,8 +15,9 @@ mod rbf;
 use super::hole::{Band, Hole, HoleReach};
 use super::method::Method;
 use super::options::{FillOptions, Interpolator};
-use crate::error::{ErrorKind, Result, proceed_every};
+use crate::error::{ErrorKind, Result};
 use crate::fair::kharmonic::{extend_from_rim, extend_with_slope};
+use crate::job::Job;
 use crate::math::sparse::SpdSolver;
 use crate::math::{Vec3, cross_normal, unit};
 use crate::mesh::attributes::{Attribute, Attributes, ScalarType};
@@ -38,8 +39,6 @@ const CENTER_SEPARATION: f64 = 0.05;
 const RANGE_MARGIN: f64 = 0.1;
 /// Differences at the rim below this, over the largest value, are rounding.
 const NO_DIFFERENCE: f64 = 1e-6;
-/// New vertices between two questions whether the work is to stop: about a millisecond.
-const INTERRUPTION_INTERVAL: usize = 256;
 
 /// Attribute values of a patch.
 #[derive(Clone, Debug, Default)]
@@ -93,7 +92,7 @@ pub(crate) struct AttributeTask<'a> {
     /// What made the patch.
     pub(crate) method: Method,
     /// Asked from time to time; true stops the work.
-    pub(crate) interrupted: &'a dyn Fn() -> bool,
+    pub(crate) job: &'a Job<'a>,
 }
 
 impl AttributeTask<'_> {
@@ -151,7 +150,7 @@ impl AttributeTask<'_> {
             };
             reach = hole.in_mesh(vicinity);
         }
-        let band = hole.band(self.mesh, reach, self.interrupted)?;
+        let band = hole.band(self.mesh, reach, self.job)?;
         let known: Vec<Channel> = interpolated
             .into_iter()
             .filter_map(|c| self.channel(c, &band))
@@ -235,7 +234,7 @@ impl AttributeTask<'_> {
             &self.hole.shape,
             &band.surroundings,
             &self.options.mls,
-            self.interrupted,
+            self.job,
         )?;
         let values = |channel: &Channel| -> Vec<f64> {
             let vertices = field.vertices().iter();
@@ -243,7 +242,7 @@ impl AttributeTask<'_> {
         };
         let known: Vec<Vec<f64>> = channels.iter().map(values).collect();
         let new_points = &self.surface.points[self.surface.rim_count..];
-        field.extend(&known, new_points, self.interrupted)
+        field.extend(&known, new_points, self.job)
     }
 
     fn by_radial_functions(&self, band: &Band, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {
@@ -257,8 +256,8 @@ impl AttributeTask<'_> {
         let new_points = &surface.points[surface.rim_count..];
         let mut result = vec![Vec::with_capacity(new_points.len()); channels.len()];
         let mut at_point = vec![0.0; channels.len()];
-        for (i, p) in new_points.iter().enumerate() {
-            self.check_interruption(i)?;
+        for p in new_points {
+            self.job.tick(150)?;
             f.evaluate(p, &mut at_point);
             for (values, &value) in result.iter_mut().zip(&at_point) {
                 values.push(value);
@@ -268,7 +267,7 @@ impl AttributeTask<'_> {
         // is added as a membrane, so that there is no seam.
         let mut missed = Vec::with_capacity(surface.rim_count);
         for (i, p) in self.hole.shape.points.iter().enumerate() {
-            self.check_interruption(i)?;
+            self.job.tick(150)?;
             f.evaluate(p, &mut at_point);
             let differences = channels.iter().zip(&at_point).map(|(c, v)| c.values[i] - v);
             missed.push(differences.collect::<Vec<f64>>());
@@ -286,10 +285,10 @@ impl AttributeTask<'_> {
 
     fn by_thin_plate(&self, band: &Band, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {
         let rim_count = self.surface.rim_count;
-        let mut solver = SpdSolver::new(self.interrupted);
+        let mut solver = SpdSolver::new(self.job);
         let mut result = Vec::with_capacity(channels.len());
         for three in channels.chunks(3) {
-            self.check_interruption(0)?;
+            self.job.ask()?;
             let row = |i: usize| Vec3::from_fn(|k, _| three.get(k).map_or(0.0, |c| c.values[i]));
             let at_rim: Vec<Vec3> = (0..rim_count).map(row).collect();
             let around: Vec<Vec3> = (0..band.vertices.len())
@@ -307,10 +306,10 @@ impl AttributeTask<'_> {
     fn by_membrane(&self, at_rim: impl Fn(usize) -> Vec<f64>) -> Result<Vec<Vec<f64>>> {
         let rows: Vec<Vec<f64>> = (0..self.surface.rim_count).map(at_rim).collect();
         let channels = rows.first().map_or(0, Vec::len);
-        let mut solver = SpdSolver::new(self.interrupted);
+        let mut solver = SpdSolver::new(self.job);
         let mut result = Vec::with_capacity(channels);
         for first in (0..channels).step_by(3) {
-            self.check_interruption(0)?;
+            self.job.ask()?;
             let of_row =
                 |row: &Vec<f64>| Vec3::from_fn(|k, _| row.get(first + k).copied().unwrap_or(0.0));
             let at_rim: Vec<Vec3> = rows.iter().map(of_row).collect();
@@ -326,12 +325,6 @@ impl AttributeTask<'_> {
             }
         }
         Ok(result)
-    }
-
-    /// Asks at every [`INTERRUPTION_INTERVAL`]th `step`.
-    fn check_interruption(&self, step: usize) -> Result<()> {
-        proceed_every(INTERRUPTION_INTERVAL, step, self.interrupted)?;
-        Ok(())
     }
 }
 

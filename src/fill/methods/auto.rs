@@ -7,11 +7,12 @@
 use super::creases::Creases;
 use super::hpde;
 use super::staircase::Staircase;
-use crate::error::{Error, ErrorKind, Result, proceed_every, proceed_unless};
+use crate::error::{Error, ErrorKind, Result};
 use crate::fair::kharmonic::{extend_from_rim, extend_with_slope};
 use crate::fill::method::Method;
 use crate::fill::options::FillOptions;
 use crate::fill::report::Prediction;
+use crate::job::Job;
 use crate::math::sparse::SpdSolver;
 use crate::math::{Vec3, cross_normal, unit};
 use crate::patch::{HoleShape, PatchSurface};
@@ -46,11 +47,6 @@ const FINER_TIP: f64 = 0.6;
 /// target lengths, and a regular pentagon, whose diagonals have 1.62 sides, is a missing vertex with its triangles.
 const FINER_RIM: f64 = 0.8;
 
-/// Points that are moved onto the surface between two questions whether to stop: each may take a tenth of a millisecond.
-const POINTS_PER_CHECK: usize = 64;
-/// Triangles whose angles are measured between two questions whether to stop: about a millisecond's work.
-const TRIANGLES_PER_CHECK: usize = 8192;
-
 /// Smoothings of folded places, at most, each time.
 const MOST_UNFOLDINGS: usize = 20;
 
@@ -78,20 +74,16 @@ const UNCHOSEN: [Candidate; 2] = [Candidate::Cubic, Candidate::CubicSmoothed];
 pub(super) struct Auto<'a> {
     hole: &'a HoleShape,
     options: &'a FillOptions,
-    interrupted: &'a dyn Fn() -> bool,
+    job: &'a Job<'a>,
     prediction: Option<Prediction>,
 }
 
 impl<'a> Auto<'a> {
-    pub(super) fn new(
-        hole: &'a HoleShape,
-        options: &'a FillOptions,
-        interrupted: &'a dyn Fn() -> bool,
-    ) -> Self {
+    pub(super) fn new(hole: &'a HoleShape, options: &'a FillOptions, job: &'a Job<'a>) -> Self {
         Self {
             hole,
             options,
-            interrupted,
+            job,
             prediction: None,
         }
     }
@@ -120,10 +112,9 @@ impl<'a> Auto<'a> {
     ) -> Result<PatchSurface> {
         let lengths = &self.hole.edge_lengths;
         let step = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
-        let band = Band::new(self.hole, self.interrupted)?;
-        let mut samples = SampledBand::new(band, self.hole, step, self.options.auto.jets)
-            .stopped_by(self.interrupted);
-        staircase.check_interruption()?;
+        let band = Band::new(self.hole, self.job)?;
+        let mut samples = SampledBand::new(band, self.hole, step, self.options.auto.jets, self.job);
+        self.job.ask()?;
         let is_noisy = samples.is_noisy();
         let (candidate, scores, stump) = self.choose(method, &mut samples)?;
         let smooth_score = choice::score_of(&scores, candidate);
@@ -142,14 +133,14 @@ impl<'a> Auto<'a> {
         {
             return Ok(patch);
         }
-        staircase.check_interruption()?;
+        self.job.ask()?;
         let plane = self.flat_face(method, smooth_score);
         let is_flat = plane.is_some();
         let surface: Option<Box<dyn Implicit>> = match plane {
             Some(plane) => Some(Box::new(plane)),
-            None => candidate.fit_to_rim(&mut samples),
+            None => candidate.fit_to_rim(&mut samples)?,
         };
-        staircase.check_interruption()?;
+        self.job.ask()?;
         let surface = surface.ok_or_else(|| geometry("no surface fits the surroundings"))?;
         let (_, diameter) = self.hole.middle_and_diameter();
         let tip = stump.and_then(|s| s.tip_on(surface.as_ref(), diameter, REACH[1] * diameter));
@@ -166,7 +157,7 @@ impl<'a> Auto<'a> {
             step,
             tip,
             joins_with_slope: candidate == Candidate::CubicSmoothed && !is_noisy && !is_flat,
-            interrupted: self.interrupted,
+            job: self.job,
         };
         let faired = staircase.patch(Method::FairC1)?;
         let (_, sizes) = staircase.refined()?;
@@ -197,7 +188,7 @@ impl<'a> Auto<'a> {
             Err(error) if error.kind() == ErrorKind::Geometry => {}
             done => return done,
         }
-        let swept = hpde::patch(self.hole, self.options, self.interrupted)?;
+        let swept = hpde::patch(self.hole, self.options, self.job)?;
         let mut sizes = rim_sizes(&swept, &self.hole.edge_lengths)?;
         for size in &mut sizes {
             *size *= self.options.density;
@@ -223,7 +214,7 @@ impl Auto<'_> {
         let creases = Creases {
             hole: self.hole,
             options: self.options,
-            interrupted: self.interrupted,
+            job: self.job,
             step,
             smooth_score: smooth_score.unwrap_or(f64::INFINITY),
         };
@@ -284,9 +275,7 @@ impl Auto<'_> {
             .into_iter()
             .filter(|c| Self::allows(self.options, *c, samples))
             .collect();
-        let scores = choice::scores(samples, &candidates);
-        // Scores of work that was broken off say nothing.
-        proceed_unless(self.interrupted)?;
+        let scores = choice::scores(samples, &candidates)?;
         let stump = self.stump(samples);
         let closing = stump
             .filter(|_| !choice::is_exact(&scores))
@@ -312,7 +301,7 @@ pub(super) struct Marcher<'a> {
     pub(super) tip: Option<Tip>,
     /// Whether what the rim is off the surface goes on with the slope that it has there: detail, as opposed to noise.
     pub(super) joins_with_slope: bool,
-    pub(super) interrupted: &'a dyn Fn() -> bool,
+    pub(super) job: &'a Job<'a>,
 }
 
 impl Marcher<'_> {
@@ -374,9 +363,9 @@ impl Marcher<'_> {
             distances.fold(f64::INFINITY, f64::min)
         };
         let mut distances = Vec::with_capacity(interior.len());
-        for points in interior.chunks(POINTS_PER_CHECK) {
-            proceed_unless(self.interrupted)?;
-            distances.extend(points.iter().map(to_rim));
+        for p in interior.iter() {
+            self.job.tick(rim.len() / 16)?;
+            distances.push(to_rim(p));
         }
         let farthest = distances.iter().copied().fold(0.0, f64::max);
         for (p, distance) in interior.iter_mut().zip(&distances) {
@@ -388,13 +377,11 @@ impl Marcher<'_> {
     /// Moves points onto the surface; returns the longest way.
     fn project(&self, points: &mut [Vec3], steps: usize, limit: f64) -> Result<f64> {
         let mut longest: f64 = 0.0;
-        for points in points.chunks_mut(POINTS_PER_CHECK) {
-            proceed_unless(self.interrupted)?;
-            for p in points {
-                let moved = march::project(self.surface, p, steps, limit);
-                longest = longest.max((moved - *p).norm());
-                *p = moved;
-            }
+        for p in points {
+            self.job.tick(500)?;
+            let moved = march::project(self.surface, p, steps, limit);
+            longest = longest.max((moved - *p).norm());
+            *p = moved;
         }
         Ok(longest)
     }
@@ -403,9 +390,9 @@ impl Marcher<'_> {
     fn unfold(&self, patch: &mut PatchSurface, limit: f64) -> Result<()> {
         let gradient = |p: &Vec3| unit(self.surface.value_and_gradient(p).1);
         let mut gradients = Vec::with_capacity(patch.points.len());
-        for points in patch.points.chunks(POINTS_PER_CHECK) {
-            proceed_unless(self.interrupted)?;
-            gradients.extend(points.iter().map(gradient));
+        for p in &patch.points {
+            self.job.tick(100)?;
+            gradients.push(gradient(p));
         }
         for _ in 0..MOST_UNFOLDINGS {
             let mut is_folded = vec![false; patch.points.len()];
@@ -420,7 +407,7 @@ impl Marcher<'_> {
             if count == 0 {
                 break;
             }
-            proceed_unless(self.interrupted)?;
+            self.job.ask()?;
             let mut sums = vec![(Vec3::zeros(), 0.0); patch.points.len()];
             for t in &patch.triangles {
                 for k in 0..3 {
@@ -450,7 +437,7 @@ impl Marcher<'_> {
             return Ok(());
         }
         let at_rim = self.offsets(&patch.points[..rim_count], limit)?;
-        let mut solver = SpdSolver::new(self.interrupted);
+        let mut solver = SpdSolver::new(self.job);
         let extended = if self.joins_with_slope {
             let surroundings = &self.hole.surroundings;
             // No other ring has a say in the slope.
@@ -488,18 +475,18 @@ impl Marcher<'_> {
         if !patch.points.iter().flatten().all(|x| x.is_finite()) {
             return Err(geometry("the predicted patch is not finite"));
         }
-        let folded = folded_share(patch, self.interrupted)?;
+        let folded = folded_share(patch, self.job)?;
         let count = patch.triangles.len().max(1) as f64;
         if folded >= FOLDED_SHARE.max(FOLDED_COUNT / count) {
             return Err(geometry("the predicted patch is folded"));
         }
-        proceed_unless(self.interrupted)?;
+        self.job.ask()?;
         if area(patch) > AREA_GROWTH[usize::from(self.tip.is_some())] * area(faired) {
             return Err(geometry("the predicted patch is far larger than the hole"));
         }
-        proceed_unless(self.interrupted)?;
+        self.job.ask()?;
         let bent = self.bent_share(patch);
-        proceed_unless(self.interrupted)?;
+        self.job.ask()?;
         if bent > BENT_SHARE && bent > self.bent_share(faired) {
             return Err(geometry("the predicted patch leaves the rim at an angle"));
         }
@@ -550,10 +537,10 @@ fn area(patch: &PatchSurface) -> f64 {
 }
 
 /// Share of triangles that turn away from their surroundings.
-fn folded_share(patch: &PatchSurface, interrupted: &dyn Fn() -> bool) -> Result<f64> {
+fn folded_share(patch: &PatchSurface, job: &Job<'_>) -> Result<f64> {
     let mut at_vertices = vec![Vec3::zeros(); patch.points.len()];
-    for (i, t) in patch.triangles.iter().enumerate() {
-        proceed_every(TRIANGLES_PER_CHECK, i, interrupted)?;
+    for t in &patch.triangles {
+        job.tick(5)?;
         let n = normal(patch, t);
         for k in 0..3 {
             let p = [0, 1, 2].map(|i| patch.points[t[(k + i) % 3] as usize]);
@@ -561,7 +548,7 @@ fn folded_share(patch: &PatchSurface, interrupted: &dyn Fn() -> bool) -> Result<
             at_vertices[t[k] as usize] += angle * n;
         }
     }
-    proceed_unless(interrupted)?;
+    job.ask()?;
     let is_folded = |t: &[u32; 3]| {
         let mean: Vec3 = t.iter().map(|&v| unit(at_vertices[v as usize])).sum();
         normal(patch, t).dot(&unit(mean)) < FOLDED

@@ -8,9 +8,10 @@
 use super::auto::{Auto, Marcher};
 use super::staircase::Staircase;
 use crate::crease::detect::{Regions, detect};
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result};
 use crate::fill::method::Method;
 use crate::fill::options::FillOptions;
+use crate::job::Job;
 use crate::math::{Vec3, unit};
 use crate::mesh::pairing::pair_halfedges;
 use crate::patch::{HoleShape, PatchSurface, Surroundings};
@@ -41,7 +42,7 @@ pub(super) struct CreasePatch {
 pub(super) struct Creases<'a> {
     pub(super) hole: &'a HoleShape,
     pub(super) options: &'a FillOptions,
-    pub(super) interrupted: &'a dyn Fn() -> bool,
+    pub(super) job: &'a Job<'a>,
     /// Mean edge length at the rim.
     pub(super) step: f64,
     /// Score of the best smooth candidate.
@@ -55,20 +56,20 @@ impl Creases<'_> {
     /// Why creases that were found are not used: [`ErrorKind::Geometry`] and those of the steps;
     /// [`ErrorKind::Cancelled`].
     pub(super) fn patch(&self) -> Result<Option<CreasePatch>> {
-        let Some(mut regions) = detect(self.hole, self.interrupted)? else {
+        let Some(mut regions) = detect(self.hole, self.job)? else {
             return Ok(None);
         };
         let allowed = |candidate: Candidate, samples: &SampledBand<'_>| {
             Auto::allows(self.options, candidate, samples)
         };
-        let surfaces = fit_regions(self.hole, &regions, self.step, &allowed, self.interrupted)?;
+        let surfaces = fit_regions(self.hole, &regions, self.step, &allowed, self.job)?;
         let score = common_score(&regions, &surfaces);
         if score > self.smooth_score {
             return unusable("a smooth surface predicts the surroundings better than creases do");
         }
         let implicit: Vec<&dyn Implicit> = surfaces.iter().map(|s| s.surface.as_ref()).collect();
         slide_ends(self.hole, &mut regions, &implicit, self.step)?;
-        proceed_unless(self.interrupted)?;
+        self.job.ask()?;
         let partition = partition(self.hole, &regions, &implicit, self.step)?;
         let mut surface = PatchSurface {
             rim_count: self.hole.points.len(),
@@ -79,8 +80,8 @@ impl Creases<'_> {
         for face in &partition.faces {
             self.fill(face, &partition, &regions, &implicit, &mut surface)?;
         }
-        proceed_unless(self.interrupted)?;
-        if self.intersects(&surface) {
+        self.job.ask()?;
+        if self.intersects(&surface)? {
             return unusable("the patch with creases intersects itself or its surroundings");
         }
         Ok(Some(CreasePatch {
@@ -102,7 +103,7 @@ impl Creases<'_> {
         let surface = surfaces[face.region as usize];
         let faces = &regions.faces[face.region as usize];
         let shape = self.face_shape(face, partition, faces, surface, patch);
-        let mut staircase = Staircase::new(&shape, self.options, self.interrupted);
+        let mut staircase = Staircase::new(&shape, self.options, self.job);
         let start = staircase.patch(Method::Membrane)?;
         let marcher = Marcher {
             hole: &shape,
@@ -110,7 +111,7 @@ impl Creases<'_> {
             step: self.step,
             tip: None,
             joins_with_slope: false,
-            interrupted: self.interrupted,
+            job: self.job,
         };
         let (_, sizes) = staircase.refined()?;
         let filled = marcher.patch(start.clone(), sizes, &start, &staircase)?;
@@ -227,7 +228,7 @@ impl Creases<'_> {
     }
 
     /// Whether the patch intersects itself or the known triangles next to it.
-    fn intersects(&self, patch: &PatchSurface) -> bool {
+    fn intersects(&self, patch: &PatchSurface) -> Result<bool> {
         let around = &self.hole.surroundings;
         let known: Vec<Vec3> = self
             .hole
@@ -249,7 +250,8 @@ impl Creases<'_> {
             triangles: &triangles,
             twins: &pair_halfedges(&patch.triangles, patch.points.len()),
         };
-        count(mesh, &FaceIndex::build(mesh), appended).total() > 0
+        let faces = FaceIndex::build(mesh, self.job)?;
+        Ok(count(mesh, &faces, appended, self.job)?.total() > 0)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::error::Result;
 use crate::fill::options::FillOptions;
+use crate::job::Job;
 use crate::patch::{HoleShape, PatchSurface};
 use crate::predict::hpde;
 
@@ -15,13 +16,13 @@ pub(super) const RING_COUNT: u32 = hpde::RING_COUNT;
 pub(super) fn patch(
     hole: &HoleShape,
     options: &FillOptions,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<PatchSurface> {
     hpde::predict(
         hole,
         &options.hpde,
         options.seed,
         options.max_new_vertices,
-        interrupted,
+        job,
     )
 }

@@ -6,6 +6,7 @@
 
 use crate::error::Result;
 use crate::fill::options::FillOptions;
+use crate::job::Job;
 use crate::patch::{HoleShape, PatchSurface};
 use crate::predict::mls::HeightField;
 use crate::refine::{RefineOptions, refine};
@@ -20,16 +21,16 @@ const UNSPLIT: f64 = 1e9;
 pub(crate) fn patch(
     hole: &HoleShape,
     options: &FillOptions,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<PatchSurface> {
-    let field = HeightField::new(hole, &hole.surroundings, &options.mls, interrupted)?;
-    let mut surface = field.patch(options.max_new_vertices, interrupted)?;
+    let field = HeightField::new(hole, &hole.surroundings, &options.mls, job)?;
+    let mut surface = field.patch(options.max_new_vertices, job)?;
     // Delaunay in the domain is not Delaunay on a steep surface.
     let flips_only = RefineOptions {
         pass_relaxations: 0,
         final_relaxations: 0,
         max_vertices: surface.points.len(),
-        interrupted,
+        job,
         ..RefineOptions::default()
     };
     let mut sizes = vec![UNSPLIT; surface.points.len()];

@@ -14,6 +14,7 @@ use super::method::Method;
 use super::options::FillOptions;
 use crate::error::{Error, ErrorKind, Result};
 use crate::fill::report::Prediction;
+use crate::job::Job;
 use crate::patch::{HoleShape, PatchSurface};
 use auto::Auto;
 use staircase::Staircase;
@@ -23,26 +24,22 @@ pub(super) use unfold::Unfold;
 pub(crate) struct PatchMaker<'a> {
     hole: &'a HoleShape,
     options: &'a FillOptions,
-    interrupted: &'a dyn Fn() -> bool,
+    job: &'a Job<'a>,
     staircase: Staircase<'a>,
     auto: Auto<'a>,
     unfold: Unfold<'a>,
 }
 
 impl<'a> PatchMaker<'a> {
-    /// Nothing is computed yet. `interrupted` is asked from time to time; true stops the work.
-    pub(crate) fn new(
-        hole: &'a HoleShape,
-        options: &'a FillOptions,
-        interrupted: &'a dyn Fn() -> bool,
-    ) -> Self {
+    /// Nothing is computed yet.
+    pub(crate) fn new(hole: &'a HoleShape, options: &'a FillOptions, job: &'a Job<'a>) -> Self {
         Self {
             hole,
             options,
-            interrupted,
-            staircase: Staircase::new(hole, options, interrupted),
-            auto: Auto::new(hole, options, interrupted),
-            unfold: Unfold::new(hole, options, interrupted),
+            job,
+            staircase: Staircase::new(hole, options, job),
+            auto: Auto::new(hole, options, job),
+            unfold: Unfold::new(hole, options, job),
         }
     }
 
@@ -69,15 +66,15 @@ impl<'a> PatchMaker<'a> {
     pub(crate) fn patch(&mut self, method: Method) -> Result<PatchSurface> {
         match method {
             Method::Auto | Method::Curvature => self.auto.patch(method, &mut self.staircase),
-            Method::Hpde => hpde::patch(self.hole, self.options, self.interrupted),
-            Method::Grey => grey::patch(self.hole, self.options, self.interrupted),
-            Method::Nurbs => nurbs::patch(self.hole, self.options, self.interrupted),
+            Method::Hpde => hpde::patch(self.hole, self.options, self.job),
+            Method::Grey => grey::patch(self.hole, self.options, self.job),
+            Method::Nurbs => nurbs::patch(self.hole, self.options, self.job),
             Method::UnfoldArea | Method::UnfoldFairing => self.unfold.patch(method),
             Method::FairC2 if self.auto.is_noisy() => Err(Error::new(
                 ErrorKind::Geometry,
                 "the surroundings are too noisy to read curvature from",
             )),
-            Method::Mls => mls::patch(self.hole, self.options, self.interrupted),
+            Method::Mls => mls::patch(self.hole, self.options, self.job),
             _ => self.staircase.patch(method),
         }
     }

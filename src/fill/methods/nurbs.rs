@@ -2,6 +2,7 @@
 
 use crate::error::Result;
 use crate::fill::options::FillOptions;
+use crate::job::Job;
 use crate::patch::{HoleShape, PatchSurface};
 use crate::predict::nurbs;
 
@@ -15,13 +16,13 @@ pub(super) const RING_COUNT: u32 = nurbs::RING_COUNT;
 pub(super) fn patch(
     hole: &HoleShape,
     options: &FillOptions,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<PatchSurface> {
     nurbs::predict(
         hole,
         &options.nurbs,
         &options.hpde,
         options.max_new_vertices,
-        interrupted,
+        job,
     )
 }

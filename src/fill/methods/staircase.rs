@@ -4,11 +4,12 @@
 //! P. Liepa, "Filling holes in meshes", SGP 2003. Unlike there, the patch is refined again while it takes
 //! shape, so that its triangles are as regular on the final surface as they were on the first one.
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::fair::kharmonic::{Order, fair};
 use crate::fair::laplacian::Weights;
 use crate::fill::method::Method;
 use crate::fill::options::{FairWeights, FillOptions};
+use crate::job::Job;
 use crate::math::sparse::SpdSolver;
 use crate::patch::{HoleShape, PatchSurface};
 use crate::refine::{RefineOptions, grading, refine, rim_sizes};
@@ -33,21 +34,17 @@ const FINE_RELAXATIONS: usize = 2;
 pub(crate) struct Staircase<'a> {
     hole: &'a HoleShape,
     options: &'a FillOptions,
-    interrupted: &'a dyn Fn() -> bool,
+    job: &'a Job<'a>,
     refined: Option<Result<(PatchSurface, Vec<f64>)>>,
 }
 
 impl<'a> Staircase<'a> {
-    /// Nothing is computed yet. `interrupted` is asked from time to time; true stops the work.
-    pub(crate) fn new(
-        hole: &'a HoleShape,
-        options: &'a FillOptions,
-        interrupted: &'a dyn Fn() -> bool,
-    ) -> Self {
+    /// Nothing is computed yet.
+    pub(crate) fn new(hole: &'a HoleShape, options: &'a FillOptions, job: &'a Job<'a>) -> Self {
         Self {
             hole,
             options,
-            interrupted,
+            job,
             refined: None,
         }
     }
@@ -64,7 +61,7 @@ impl<'a> Staircase<'a> {
             _ => Order::Two,
         };
         let (mut surface, _) = self.refined()?;
-        let mut solver = SpdSolver::new(self.interrupted);
+        let mut solver = SpdSolver::new(self.job);
         let around = &self.hole.surroundings;
         let weights = match self.options.fairing.weights {
             FairWeights::Lumped => Weights::Cotangent,
@@ -77,13 +74,6 @@ impl<'a> Staircase<'a> {
             fair(&mut surface, around, order, weights, &mut solver)?;
         }
         Ok(surface)
-    }
-
-    pub(super) fn check_interruption(&self) -> Result<()> {
-        if (self.interrupted)() {
-            return Err(Error::cancelled());
-        }
-        Ok(())
     }
 
     fn triangulate(&self, exact_limit: usize, ear_remainder: usize) -> Result<PatchSurface> {
@@ -103,7 +93,7 @@ impl<'a> Staircase<'a> {
         let options = TriangulationOptions {
             exact_limit,
             ear_remainder,
-            interrupted: self.interrupted,
+            job: self.job,
         };
         let triangulation = triangulate(&polygon, &options)?;
         let triangles = triangulation
@@ -133,7 +123,7 @@ impl<'a> Staircase<'a> {
             }
             self.refine(&mut surface, &mut sizes, COARSE_RELAXATIONS)?;
             let around = &self.hole.surroundings;
-            let mut solver = SpdSolver::new(self.interrupted);
+            let mut solver = SpdSolver::new(self.job);
             fair(
                 &mut surface,
                 around,
@@ -179,7 +169,7 @@ impl<'a> Staircase<'a> {
             max_vertices: surface
                 .rim_count
                 .saturating_add(self.options.max_new_vertices),
-            interrupted: self.interrupted,
+            job: self.job,
             ..RefineOptions::default()
         };
         refine(surface, sizes, &options, &|a, b| self.hole.is_joined(a, b))?;

@@ -4,11 +4,12 @@
 //! curve unfolding", SMI 2009, sections 3.2 and 3.3. Unlike there, refinement works on the embedded patch and
 //! again on its final shape, and both energies are minimised exactly, by one sparse system each.
 
-use crate::error::{Error, ErrorKind, Result, proceed_every};
+use crate::error::{Error, ErrorKind, Result};
 use crate::fair::kharmonic::{Order, fair};
 use crate::fair::laplacian::Weights;
 use crate::fill::method::Method;
 use crate::fill::options::FillOptions;
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::math::sparse::SpdSolver;
 use crate::patch::{HoleShape, PatchSurface};
@@ -24,28 +25,21 @@ const ROUNDS: usize = 4;
 /// plane may be far from what suits the rim in space.
 const RELAXATIONS: usize = 5;
 
-/// Triangles whose edges are compared with all others between two questions whether to stop.
-const TRIANGLES_PER_CHECK: usize = 64;
-
 /// Builds patches for one hole; the unfolding is done once.
 pub(crate) struct Unfold<'a> {
     hole: &'a HoleShape,
     options: &'a FillOptions,
-    interrupted: &'a dyn Fn() -> bool,
+    job: &'a Job<'a>,
     embedded: Option<Result<PatchSurface>>,
 }
 
 impl<'a> Unfold<'a> {
-    /// Nothing is computed yet. `interrupted` is asked from time to time; true stops the work.
-    pub(crate) fn new(
-        hole: &'a HoleShape,
-        options: &'a FillOptions,
-        interrupted: &'a dyn Fn() -> bool,
-    ) -> Self {
+    /// Nothing is computed yet.
+    pub(crate) fn new(hole: &'a HoleShape, options: &'a FillOptions, job: &'a Job<'a>) -> Self {
         Self {
             hole,
             options,
-            interrupted,
+            job,
             embedded: None,
         }
     }
@@ -63,7 +57,7 @@ impl<'a> Unfold<'a> {
         }
         for _ in 0..ROUNDS {
             let is_refined = self.refine(&mut surface, &mut sizes)?;
-            let mut solver = SpdSolver::new(self.interrupted);
+            let mut solver = SpdSolver::new(self.job);
             let around = &self.hole.surroundings;
             // E_AREA is least where every umbrella vector is zero, E_DF where every second-order one is.
             let (order, weights) = if method == Method::UnfoldFairing {
@@ -105,8 +99,8 @@ impl<'a> Unfold<'a> {
             .map(|&v| hole.points[v as usize])
             .collect();
         let options = self.options;
-        let unfolding = unfold(&curve, &options.unfold, options.seed, self.interrupted)?;
-        let triangles = triangulate_planar_region(&[&unfolding.polygon], &[], self.interrupted)?;
+        let unfolding = unfold(&curve, &options.unfold, options.seed, self.job)?;
+        let triangles = triangulate_planar_region(&[&unfolding.polygon], &[], self.job)?;
         let mut surface = PatchSurface {
             rim_count: hole.points.len(),
             points: hole.points.clone(),
@@ -123,7 +117,7 @@ impl<'a> Unfold<'a> {
     fn split_joined_chords(&self, surface: &mut PatchSurface) -> Result<()> {
         let mut t = 0;
         while t < surface.triangles.len() {
-            proceed_every(TRIANGLES_PER_CHECK, t, self.interrupted)?;
+            self.job.tick(150)?;
             for k in 0..3 {
                 let [a, b, c] = rotated(surface.triangles[t], k);
                 if (a.max(b) as usize) >= surface.rim_count || !self.hole.is_joined(a, b) {
@@ -159,7 +153,7 @@ impl<'a> Unfold<'a> {
             grading: self.options.grading.unwrap_or_else(|| grading(rim_count)),
             pass_relaxations: 1,
             final_relaxations: RELAXATIONS,
-            interrupted: self.interrupted,
+            job: self.job,
             max_vertices: rim_count.saturating_add(self.options.max_new_vertices),
             ..RefineOptions::default()
         };

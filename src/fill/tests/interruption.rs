@@ -6,6 +6,7 @@ use crate::fill::index::MeshIndex;
 use crate::fill::method::Method;
 use crate::fill::plan::{Planner, chain};
 use crate::fixtures::{self, Arrays};
+use crate::job::Job;
 use std::sync::Mutex;
 
 /// Seconds of processor time that may pass between two questions.
@@ -37,7 +38,7 @@ fn processor_seconds() -> Option<f64> {
 fn longest_gap(arrays: &Arrays, method: Method) -> f64 {
     let mesh = mesh_of(arrays);
     let boundary = BoundaryLoops::find(&mesh);
-    let index = MeshIndex::build(&mesh);
+    let index = MeshIndex::build(&mesh, &Job::unlimited()).unwrap();
     let options = with_method(method);
     let gaps = Mutex::new((None, 0.0_f64));
     let ask = || {
@@ -53,7 +54,7 @@ fn longest_gap(arrays: &Arrays, method: Method) -> f64 {
         mesh: &mesh,
         index: &index,
         options: &options,
-        interrupted: &ask,
+        job: &Job::new(&ask),
     };
     let one_thread = rayon::ThreadPoolBuilder::new()
         .num_threads(1)

@@ -19,6 +19,7 @@ use super::report::{FillReport, HoleStatus};
 use crate::boundary::loops::BoundaryLoops;
 use crate::boundary::select::Selection;
 use crate::fixtures::Arrays;
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::mesh::connectivity::BOUNDARY;
 use crate::mesh::pairing::pair_halfedges;
@@ -228,7 +229,10 @@ impl Filled {
             triangles: self.new_triangles(),
             twins: &pair_halfedges(self.new_triangles(), self.after.positions().len()),
         };
-        count(mesh, &FaceIndex::build(mesh), patch).total()
+        let faces = FaceIndex::build(mesh, &Job::unlimited()).unwrap();
+        count(mesh, &faces, patch, &Job::unlimited())
+            .unwrap()
+            .total()
     }
 
     /// The angles in radians between the normals of a new and an old triangle at the edges of the filled loops.

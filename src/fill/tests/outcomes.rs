@@ -12,6 +12,7 @@ use crate::fill::plan::{Planner, chain};
 use crate::fill::progress::Progress;
 use crate::fill::report::HoleStatus;
 use crate::fixtures::{self, Arrays};
+use crate::job::Job;
 use crate::mesh::trimesh::TriMesh;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -107,19 +108,20 @@ fn holes_that_are_cancelled_are_as_they_were_wherever_the_caller_stops() {
 }
 
 #[test]
-fn planning_stops_wherever_it_is_interrupted() {
+fn planning_stops_wherever_it_is_cancelled() {
     let mesh = mesh_of(&fixtures::sphere(14).cut(|c| c[2] > 0.5));
     let boundary = BoundaryLoops::find(&mesh);
-    let index = MeshIndex::build(&mesh);
+    let index = MeshIndex::build(&mesh, &Job::unlimited()).unwrap();
     let options = with_method(Method::FairC2);
     let plan_for = |questions: usize| {
         let asked = AtomicUsize::new(0);
-        let interrupted = || asked.fetch_add(1, Ordering::Relaxed) >= questions;
+        let stop = || asked.fetch_add(1, Ordering::Relaxed) >= questions;
+        let job = Job::new(&stop);
         let planner = Planner {
             mesh: &mesh,
             index: &index,
             options: &options,
-            interrupted: &interrupted,
+            job: &job,
         };
         let outcome = planner.plan(&boundary.loops[0], &[], &chain(&options));
         (

@@ -5,6 +5,7 @@ use crate::boundary::select::Selection;
 use crate::fill::method::Method;
 use crate::fill::report::HoleStatus;
 use crate::fixtures::{self, Arrays};
+use crate::job::UNLIMITED;
 use crate::math::{Vec3, unit};
 use crate::patch::HoleShape;
 use std::f64::consts::TAU;
@@ -151,7 +152,7 @@ fn chords_that_the_mesh_has_as_edges_are_not_made_again() {
             .flat_map(|i| (i + 1..m).map(move |j| (i, j)))
             .collect();
         let hole = regular_hole(m, all);
-        let mut unfold = crate::fill::methods::Unfold::new(&hole, &options, &|| false);
+        let mut unfold = crate::fill::methods::Unfold::new(&hole, &options, &UNLIMITED);
         let surface = unfold.patch(Method::UnfoldArea).unwrap();
         for t in &surface.triangles {
             for k in 0..3 {

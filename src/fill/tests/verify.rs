@@ -8,6 +8,7 @@ use crate::fill::method::Method;
 use crate::fill::methods::PatchMaker;
 use crate::fill::verify::{check_against_mesh, check_patch, farthest};
 use crate::fixtures::{self, Arrays};
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::mesh::pairing::pair_halfedges;
 use crate::mesh::trimesh::TriMesh;
@@ -17,12 +18,16 @@ use crate::patch::PatchSurface;
 fn hole_and_patch(arrays: &Arrays, method: Method) -> (TriMesh, Hole, PatchSurface) {
     let mesh = mesh_of(arrays);
     let boundary = BoundaryLoops::find(&mesh);
-    let hole = Hole::new(&mesh, &boundary.loops[0], &[], HoleReach::rings(2), &|| {
-        false
-    })
+    let hole = Hole::new(
+        &mesh,
+        &boundary.loops[0],
+        &[],
+        HoleReach::rings(2),
+        &Job::unlimited(),
+    )
     .unwrap();
     let options = with_method(method);
-    let surface = PatchMaker::new(&hole.shape, &options, &|| false)
+    let surface = PatchMaker::new(&hole.shape, &options, &Job::unlimited())
         .patch(method)
         .unwrap();
     (mesh, hole, surface)
@@ -47,7 +52,7 @@ fn assert_caught(expected: ErrorKind, what: &str, change: impl Fn(&mut PatchSurf
             &hole,
             &surface,
             farthest(Method::FairC1),
-            &|| false
+            &Job::unlimited()
         )),
         None
     );
@@ -57,7 +62,7 @@ fn assert_caught(expected: ErrorKind, what: &str, change: impl Fn(&mut PatchSurf
             &hole,
             &surface,
             farthest(Method::FairC1),
-            &|| false
+            &Job::unlimited()
         )),
         Some(expected),
         "{what}"
@@ -74,7 +79,7 @@ fn a_patch_as_it_is_made_is_accepted() {
                 &hole,
                 &surface,
                 farthest(Method::FairC1),
-                &|| false
+                &Job::unlimited()
             )),
             None
         );
@@ -161,9 +166,13 @@ fn an_edge_that_the_mesh_has_already_is_caught() {
     // The rim of two triangles: its diagonal 1-2 is taken, 0-3 is free.
     let mesh = mesh_of(&fixtures::two_triangles());
     let boundary = BoundaryLoops::find(&mesh);
-    let hole = Hole::new(&mesh, &boundary.loops[0], &[], HoleReach::rings(1), &|| {
-        false
-    })
+    let hole = Hole::new(
+        &mesh,
+        &boundary.loops[0],
+        &[],
+        HoleReach::rings(1),
+        &Job::unlimited(),
+    )
     .unwrap();
     let at = |v: u32| hole.rim.iter().position(|&r| r == v).unwrap() as u32;
     let patch = |triangles: [[u32; 3]; 2]| PatchSurface {
@@ -173,9 +182,12 @@ fn an_edge_that_the_mesh_has_already_is_caught() {
     };
     let free = patch([[0, 2, 3], [0, 3, 1]]);
     assert_eq!(
-        kind(check_patch(&hole, &free, farthest(Method::FairC1), &|| {
-            false
-        })),
+        kind(check_patch(
+            &hole,
+            &free,
+            farthest(Method::FairC1),
+            &Job::unlimited()
+        )),
         None
     );
     let taken = patch([[0, 2, 1], [1, 2, 3]]);
@@ -184,7 +196,7 @@ fn an_edge_that_the_mesh_has_already_is_caught() {
             &hole,
             &taken,
             farthest(Method::FairC1),
-            &|| false
+            &Job::unlimited()
         )),
         Some(ErrorKind::Topology)
     );
@@ -197,9 +209,13 @@ fn an_edge_that_the_mesh_has_already_is_caught() {
 fn a_rim_that_was_closed_in_the_meantime_is_caught() {
     let mut mesh = mesh_of(&fixtures::triangle().with_vertex([0.0, 0.0, 1.0]));
     let boundary = BoundaryLoops::find(&mesh);
-    let hole = Hole::new(&mesh, &boundary.loops[0], &[], HoleReach::rings(1), &|| {
-        false
-    })
+    let hole = Hole::new(
+        &mesh,
+        &boundary.loops[0],
+        &[],
+        HoleReach::rings(1),
+        &Job::unlimited(),
+    )
     .unwrap();
     let tent = [[1, 0, 3], [2, 1, 3], [0, 2, 3]];
     assert_eq!(kind(check_against_mesh(&mesh, &hole, &tent)), None);
@@ -224,9 +240,13 @@ fn the_coordinates_of_a_hole_are_those_of_the_mesh_moved_and_scaled() {
         .moved(1e3, 1.0, [1e6, 0.0, -1e6]);
     let mesh = mesh_of(&arrays);
     let boundary = BoundaryLoops::find(&mesh);
-    let hole = Hole::new(&mesh, &boundary.loops[0], &[], HoleReach::rings(2), &|| {
-        false
-    })
+    let hole = Hole::new(
+        &mesh,
+        &boundary.loops[0],
+        &[],
+        HoleReach::rings(2),
+        &Job::unlimited(),
+    )
     .unwrap();
     let n = hole.rim.len();
     assert!(hole.shape.points.iter().sum::<Vec3>().norm() < 1e-6);

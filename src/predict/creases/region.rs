@@ -5,7 +5,8 @@
 //! by the function that interpolates it.
 
 use crate::crease::detect::Regions;
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use crate::patch::HoleShape;
 use crate::predict::surface::algebraic::{AlgebraicSurface, Kind};
 use crate::predict::surface::candidates::Candidate;
@@ -72,21 +73,20 @@ pub(crate) fn fit_regions(
     regions: &Regions,
     step: f64,
     allowed: &dyn Fn(Candidate, &SampledBand) -> bool,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<Vec<RegionSurface>> {
     let fit = |faces: &Vec<u32>| {
-        proceed_unless(interrupted)?;
-        let band = Band::new(&region_shape(hole, faces), interrupted)?;
-        let mut samples = SampledBand::new(band, hole, step, true).stopped_by(interrupted);
+        job.ask()?;
+        let band = Band::new(&region_shape(hole, faces), job)?;
+        let mut samples = SampledBand::new(band, hole, step, true, job);
         let is_noisy = samples.is_noisy();
         let candidates: Vec<Candidate> = Candidate::ALL
             .into_iter()
             .filter(|c| allowed(*c, &samples))
             .collect();
-        let scores = choice::scores(&mut samples, &candidates);
-        proceed_unless(interrupted)?;
+        let scores = choice::scores(&mut samples, &candidates)?;
         if let Some(candidate) = choice::choose(&scores, is_noisy)
-            && let Some(surface) = candidate.fit_to_rim(&mut samples)
+            && let Some(surface) = candidate.fit_to_rim(&mut samples)?
         {
             return Ok(RegionSurface {
                 candidate,
@@ -94,17 +94,13 @@ pub(crate) fn fit_regions(
                 score: choice::score_of(&scores, candidate),
             });
         }
-        proceed_unless(interrupted)?;
-        let small = fit_small(&mut samples);
-        // What a fit says that was broken off means nothing.
-        proceed_unless(interrupted)?;
-        small
+        fit_small(&mut samples)
     };
     regions.faces.iter().map(fit).collect()
 }
 
 fn fit_small(samples: &mut SampledBand) -> Result<RegionSurface> {
-    let vertices = samples.spread(0..FITTED_RINGS + 1, MOST_VERTICES);
+    let vertices = samples.spread(0..FITTED_RINGS + 1, MOST_VERTICES)?;
     if vertices.len() < FEWEST_VERTICES {
         let reason = "the region beside a crease is too small";
         return Err(Error::new(ErrorKind::Geometry, reason.to_owned()));

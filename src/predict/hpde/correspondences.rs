@@ -4,7 +4,8 @@
 //! Computer-Aided Design 45, 2013, section 4.3, equations 9 and 10. `O(n²)`.
 
 use super::base_points::{BasePoint, rim_direction};
-use crate::error::{Result, proceed_every};
+use crate::error::Result;
+use crate::job::Job;
 use crate::math::{Vec3, unit};
 
 /// A pair of base points that face each other, as indices of the rotated sequence: `first < second`.
@@ -14,15 +15,12 @@ pub(crate) struct Pair {
     pub(crate) second: usize,
 }
 
-/// Starts that are compared between two questions whether to stop.
-const STARTS_PER_CHECK: usize = 64;
-
 /// The start of the sequence for which the distances between the points `i` and `n - 1 - i` have the smallest sum,
 /// equation 10.
 ///
 /// # Errors
-/// `Cancelled` when `interrupted` returns true.
-pub(super) fn best_start(base: &[BasePoint], interrupted: &dyn Fn() -> bool) -> Result<usize> {
+/// `Cancelled` when the job is stopped.
+pub(super) fn best_start(base: &[BasePoint], job: &Job<'_>) -> Result<usize> {
     let n = base.len();
     let sum = |start: usize| -> f64 {
         (0..n / 2)
@@ -35,7 +33,7 @@ pub(super) fn best_start(base: &[BasePoint], interrupted: &dyn Fn() -> bool) -> 
     };
     let mut best = (0, f64::INFINITY);
     for start in 0..n / 2 {
-        proceed_every(STARTS_PER_CHECK, start, interrupted)?;
+        job.tick(n / 16)?;
         let distance = sum(start);
         if distance < best.1 {
             best = (start, distance);
@@ -96,7 +94,7 @@ mod tests {
     fn sections_cross_an_ellipse_the_short_way() {
         for turn in 0..12 {
             let base = ellipse(24, 3.0, 1.0, turn);
-            let start = best_start(&base, &|| false).unwrap();
+            let start = best_start(&base, &Job::unlimited()).unwrap();
             let n = base.len();
             for i in 0..n / 2 {
                 let a = base[(start + i) % n].position;

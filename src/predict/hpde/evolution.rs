@@ -10,7 +10,8 @@
 
 use super::arcs::Profile;
 use super::options::{DeCrossover, DeMutation, HpdeOptions};
-use crate::error::{Result, proceed_unless};
+use crate::error::Result;
+use crate::job::Job;
 use rand::{Rng, RngExt};
 use std::f64::consts::{PI, TAU};
 
@@ -50,7 +51,7 @@ pub(super) fn evolve(
     profile: &Profile,
     options: &HpdeOptions,
     random: &mut impl Rng,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<Heights> {
     let m = profile.x.len();
     let start = Individual::new(profile, profile.start.clone());
@@ -67,7 +68,7 @@ pub(super) fn evolve(
     let mut trial = population[0].clone();
     let mut history = vec![population[best(&population)].objective];
     for _ in 0..options.generations {
-        proceed_unless(interrupted)?;
+        job.ask()?;
         let best = best(&population);
         for parent in 0..size {
             let mutant = Mutant::new(&population, best, parent, options, random);
@@ -292,7 +293,13 @@ mod tests {
     }
 
     fn run(options: &HpdeOptions, seed: u64) -> Heights {
-        evolve(&section(9), options, &mut seeded(seed, 0), &|| false).unwrap()
+        evolve(
+            &section(9),
+            options,
+            &mut seeded(seed, 0),
+            &Job::unlimited(),
+        )
+        .unwrap()
     }
 
     const VARIANTS: [(DeMutation, DeCrossover); 6] = [
@@ -362,7 +369,7 @@ mod tests {
             population: 10,
             ..HpdeOptions::default()
         };
-        let found = evolve(&profile, &options, &mut seeded(3, 0), &|| false).unwrap();
+        let found = evolve(&profile, &options, &mut seeded(3, 0), &Job::unlimited()).unwrap();
         let last = found.history[found.history.len() - 1];
         assert!(last < 1.002 * smallest, "{last} {smallest}");
     }
@@ -378,7 +385,7 @@ mod tests {
             &profile,
             &HpdeOptions::default(),
             &mut seeded(0, 0),
-            &|| false,
+            &Job::unlimited(),
         );
         assert_eq!(found.unwrap().values, profile.start);
     }
@@ -389,7 +396,7 @@ mod tests {
             &section(9),
             &HpdeOptions::default(),
             &mut seeded(0, 0),
-            &|| true,
+            &Job::new(&|| true),
         );
         assert_eq!(found.unwrap_err().kind(), crate::ErrorKind::Cancelled);
     }

@@ -29,7 +29,8 @@ pub(crate) use outside::{Known, Outside};
 pub(crate) use sections::{Predicted, Prepared};
 
 use super::surface::jets::Band;
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::patch::{HoleShape, PatchSurface};
 use crate::triangulate::planar::triangulate_planar_region;
@@ -69,11 +70,10 @@ pub(crate) fn predict(
     options: &HpdeOptions,
     seed: u64,
     most_points: usize,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<PatchSurface> {
-    let curves =
-        |_: &[BasePoint], sections: &[Prepared]| evolved(sections, options, seed, interrupted);
-    patch_along(hole, options, most_points, &curves, interrupted)
+    let curves = |_: &[BasePoint], sections: &[Prepared]| evolved(sections, options, seed, job);
+    patch_along(hole, options, most_points, &curves, job)
 }
 
 /// What predicts the points of all sections.
@@ -88,10 +88,10 @@ pub(crate) fn patch_along(
     options: &HpdeOptions,
     most_points: usize,
     curves: &Curves<'_>,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<PatchSurface> {
     check_simple(hole)?;
-    let rim = read_rim(hole, options, interrupted)?;
+    let rim = read_rim(hole, options, job)?;
     let mut base = base_points(&rim, options.base_spacing);
     let n = base.len();
     // Step 3: the sequence in which partners are known, and where it is folded.
@@ -104,7 +104,7 @@ pub(crate) fn patch_along(
                 fold = Some(at.min(n - 1 - at));
                 start
             }
-            None => best_start(&base, interrupted)?,
+            None => best_start(&base, job)?,
         };
         base.rotate_left(start);
     }
@@ -127,7 +127,7 @@ pub(crate) fn patch_along(
         Some(fold) => scene.on_two_planes(fold),
         None => Ok(scene.on_one_plane()),
     };
-    let finish = |layout: Layout| finish(hole, &rim, &sections, &layout, options, interrupted);
+    let finish = |layout: Layout| finish(hole, &rim, &sections, &layout, options, job);
     let planes = || on_planes().and_then(finish);
     let unrolled = || finish(scene.side_by_side(false));
     let straight = || finish(scene.side_by_side(true));
@@ -149,11 +149,7 @@ pub(crate) fn patch_along(
 }
 
 /// The rim as the prediction sees it, smoothed on request together with its surroundings.
-fn read_rim(
-    hole: &HoleShape,
-    options: &HpdeOptions,
-    interrupted: &dyn Fn() -> bool,
-) -> Result<Rim> {
+fn read_rim(hole: &HoleShape, options: &HpdeOptions, job: &Job<'_>) -> Result<Rim> {
     let mut seen = Cow::Borrowed(hole);
     if options.denoise > 0 {
         denoise(seen.to_mut(), options.denoise);
@@ -161,9 +157,9 @@ fn read_rim(
     let normals = match options.tangents {
         HpdeTangents::Chord => None,
         HpdeTangents::Jet => {
-            proceed_unless(interrupted)?;
-            let band = Band::new(&seen, interrupted)?;
-            Some(band.interpolating_normals(seen.points.len(), interrupted)?)
+            job.ask()?;
+            let band = Band::new(&seen, job)?;
+            Some(band.interpolating_normals(seen.points.len(), job)?)
         }
     };
     let in_order = |values: &[Vec3]| -> Vec<Vec3> {
@@ -202,9 +198,9 @@ fn finish(
     sections: &[Section],
     layout: &Layout,
     options: &HpdeOptions,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<PatchSurface> {
-    let mut editor = triangulated(hole, sections, layout, interrupted)?;
+    let mut editor = triangulated(hole, sections, layout, job)?;
     let m = hole.points.len();
     if options.smoothing {
         let triangles: Vec<[u32; 3]> = editor.triangles().collect();
@@ -213,7 +209,7 @@ fn finish(
         smooth(points, &neighbours, |v| v >= m, options.smoothing_steps);
     }
     editor.collapse_short(options.shortest_edge * rim.edge_length);
-    editor.swap_edges(interrupted)?;
+    editor.swap_edges(job)?;
     match editor.folds(FOLDED).len() {
         0 => Ok(editor.finish()),
         count => Err(folded(count)),
@@ -225,7 +221,7 @@ fn triangulated<'a>(
     hole: &'a HoleShape,
     sections: &[Section],
     layout: &Layout,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<Editor<'a>> {
     let m = hole.points.len();
     let mut predicted: Vec<(Vec3, [f64; 2])> = sections
@@ -246,7 +242,7 @@ fn triangulated<'a>(
     }
     for _ in 0..MOST_ROUNDS {
         let inside: Vec<[f64; 2]> = predicted.iter().map(|p| p.1).collect();
-        let triangles = triangulate_planar_region(&[&layout.rim], &inside, interrupted)?;
+        let triangles = triangulate_planar_region(&[&layout.rim], &inside, job)?;
         // The layout has the rim in the order of the polygon.
         let number = |v: u32| hole.polygon.get(v as usize).copied().unwrap_or(v);
         let mut points = hole.points.clone();
@@ -258,7 +254,7 @@ fn triangulated<'a>(
         };
         let mut editor = Editor::new(surface, hole);
         editor.split_joined();
-        editor.swap_edges(interrupted)?;
+        editor.swap_edges(job)?;
         editor.unfold(FOLDED);
         let folds = editor.folds(FOLDED);
         let mut is_left_out = vec![false; predicted.len()];

@@ -7,7 +7,8 @@
 //! Rim vertices stay where they are and rim edges stay edges. No collapse or swap joins two rim vertices that the
 //! mesh joins already, turns a triangle over or makes the patch non-manifold.
 
-use crate::error::{Result, proceed_unless};
+use crate::error::Result;
+use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
 use crate::patch::{HoleShape, PatchSurface};
 use std::collections::BTreeSet;
@@ -292,14 +293,14 @@ impl<'a> Editor<'a> {
     ///
     /// # Errors
     /// [`ErrorKind::Cancelled`].
-    pub(super) fn swap_edges(&mut self, interrupted: &dyn Fn() -> bool) -> Result<usize> {
+    pub(super) fn swap_edges(&mut self, job: &Job<'_>) -> Result<usize> {
         let mut waiting = self.interior_edges();
         // Taken from the end: the order of the sorted edges.
         waiting.reverse();
         let mut count = 0;
         while let Some((a, b)) = waiting.pop() {
             if count % 1024 == 1023 {
-                proceed_unless(interrupted)?;
+                job.ask()?;
             }
             let Some([c, d]) = self.swap(a, b) else {
                 continue;

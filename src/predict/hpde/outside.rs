@@ -5,7 +5,8 @@
 
 use super::base_points::BasePoint;
 use super::sections::Prepared;
-use crate::error::{Result, proceed_unless};
+use crate::error::Result;
+use crate::job::Job;
 use crate::math::{Vec3, unit};
 use crate::patch::HoleShape;
 use crate::predict::surface::jets::Band;
@@ -35,8 +36,8 @@ impl<'a> Outside<'a> {
     /// Reads the surroundings of a hole.
     ///
     /// # Errors
-    /// `Cancelled` when `interrupted` returns true.
-    pub(crate) fn new(hole: &'a HoleShape, interrupted: &dyn Fn() -> bool) -> Result<Self> {
+    /// `Cancelled` when the job is stopped.
+    pub(crate) fn new(hole: &'a HoleShape, job: &Job<'_>) -> Result<Self> {
         let mut edges: Vec<(u32, u32, u32)> = hole
             .surroundings
             .triangles
@@ -44,11 +45,11 @@ impl<'a> Outside<'a> {
             .flat_map(|&[a, b, c]| [(a, b, c), (b, c, a), (c, a, b)])
             .collect();
         edges.sort_unstable();
-        proceed_unless(interrupted)?;
-        let band = Band::new(hole, interrupted)?;
+        job.ask()?;
+        let band = Band::new(hole, job)?;
         let mut normals = band.triangle_normals.clone();
         // Those of triangles would lean to one side at the rim.
-        let at_rim = band.interpolating_normals(hole.points.len(), interrupted)?;
+        let at_rim = band.interpolating_normals(hole.points.len(), job)?;
         normals[..at_rim.len()].copy_from_slice(&at_rim);
         Ok(Self {
             hole,
@@ -201,7 +202,7 @@ mod tests {
         let normal = Vec3::new(-0.5, 0.0, 1.0).normalize();
         let rim = Rim::new(hole.points.clone(), vec![normal; 16], None, 1.0);
         let base = base_points(&rim, 0.7);
-        let outside = Outside::new(&hole, &|| false).unwrap();
+        let outside = Outside::new(&hole, &Job::unlimited()).unwrap();
         let mut count = 0;
         for b in &base {
             // A plane that leaves the side of the hole at y = 5 straight away from it.
@@ -233,7 +234,7 @@ mod tests {
         let hole = sheet(|_, _| 0.0);
         let rim = Rim::new(hole.points.clone(), vec![Vec3::z(); 16], None, 1.0);
         let base = base_points(&rim, 0.7);
-        let outside = Outside::new(&hole, &|| false).unwrap();
+        let outside = Outside::new(&hole, &Job::unlimited()).unwrap();
         let section = Prepared {
             ahead: Vec3::x(),
             ..Prepared::default()

@@ -4,6 +4,7 @@ use super::arcs::{Arc, profile};
 use super::evolution::evolve;
 use super::options::{HpdeOptions, HpdeSolver};
 use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use crate::math::random::seeded;
 use std::f64::consts::PI;
 
@@ -51,7 +52,7 @@ pub fn evolve_section(
         generations,
         ..options.clone()
     };
-    let found = evolve(&profile, &options, &mut seeded(seed, 0), &|| false)?;
+    let found = evolve(&profile, &options, &mut seeded(seed, 0), &Job::unlimited())?;
     let points = profile.x.iter().zip(&found.values);
     Ok(SectionCurve {
         points: points.map(|(x, y)| [*x, *y]).collect(),

@@ -8,7 +8,8 @@ use super::base_points::{BasePoint, rim_direction};
 use super::correspondences::Pair;
 use super::evolution::evolve;
 use super::options::{HpdeOptions, HpdeSolver};
-use crate::error::{Error, ErrorKind, Result, proceed_unless};
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use crate::math::random::seeded;
 use crate::math::{Vec3, unit};
 
@@ -129,15 +130,15 @@ pub(super) fn evolved(
     sections: &[Prepared],
     options: &HpdeOptions,
     seed: u64,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<Predicted> {
     let mut predicted = Vec::with_capacity(sections.len());
     for (k, section) in (0_u64..).zip(sections) {
-        proceed_unless(interrupted)?;
+        job.ask()?;
         let profile = profile(&section.arcs[0], &section.arcs[1], section.count);
         let heights = match options.solver {
             HpdeSolver::Direct => profile.start.clone(),
-            HpdeSolver::De => evolve(&profile, options, &mut seeded(seed, k), interrupted)?.values,
+            HpdeSolver::De => evolve(&profile, options, &mut seeded(seed, k), job)?.values,
         };
         let points = profile.x.iter().zip(&heights);
         predicted.push(

@@ -1,15 +1,13 @@
 //! Where a hole is sampled: the points of a square grid that lie in the mask's opening.
 
-use crate::error::{Error, ErrorKind, Result, proceed_every};
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use crate::triangulate::simple_polygon::Point2;
 
 /// Least distance of a sample from the mask, in steps.
 const CLEARANCE: f64 = 0.5;
 /// Largest number of grid lines that a hole may span: more would not be counted exactly by what follows.
 const MOST_LINES: f64 = 1e9;
-/// Edges of the loops, and lines of the grid, between two questions whether to stop.
-const EDGES_PER_CHECK: usize = 1024;
-const LINES_PER_CHECK: usize = 32;
 
 /// The points of the grid of width `step` about the origin that lie inside the `loops` (by the parity of
 /// crossings, so that an inner loop bounds an island) and not nearer to them than half a step, in scan order:
@@ -24,7 +22,7 @@ pub(crate) fn resampling_positions(
     loops: &[Vec<Point2>],
     step: f64,
     limit: usize,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<Vec<Point2>> {
     let too_many = || {
         let message = format!("the hole needs more than {limit} new vertices");
@@ -34,7 +32,7 @@ pub(crate) fn resampling_positions(
     let mut near: Vec<(i64, i64)> = Vec::new();
     for of_loop in loops {
         for (i, &a) in of_loop.iter().enumerate() {
-            proceed_every(EDGES_PER_CHECK, i, interrupted)?;
+            job.tick(10)?;
             let b = of_loop[(i + 1) % of_loop.len()];
             let edge = [a, b].map(|p| p.map(|x| x / step));
             if !edge.iter().flatten().all(|x| x.abs() < MOST_LINES) {
@@ -52,11 +50,11 @@ pub(crate) fn resampling_positions(
     near.sort_unstable();
     near.dedup();
     let mut samples = Vec::new();
-    for (line, pair) in crossings.chunks_exact(2).enumerate() {
-        proceed_every(LINES_PER_CHECK, line, interrupted)?;
+    for pair in crossings.chunks_exact(2) {
         let [(row, from), (_, to)] = [pair[0], pair[1]];
         let first = from.ceil() as i64;
         let last = to.floor() as i64;
+        job.tick((last - first).max(0) as usize)?;
         let start = near.partition_point(|&cell| cell < (row, first));
         let mut covered = near[start..].iter().copied().peekable();
         for column in first..=last {
@@ -171,7 +169,7 @@ mod tests {
             let angle = |i: usize| std::f64::consts::TAU * (i as f64 + 0.1) / n as f64;
             let star = (0..n).map(|i| [radii[i] * angle(i).cos(), radii[i] * angle(i).sin()]);
             let loops = [star.collect(), circle(inner, 7, -1.0)];
-            let found = resampling_positions(&loops, step, 10_000, &|| false).unwrap();
+            let found = resampling_positions(&loops, step, 10_000, &Job::unlimited()).unwrap();
             prop_assert_eq!(found, slowly(&loops, step));
         }
     }
@@ -179,7 +177,7 @@ mod tests {
     #[test]
     fn an_island_is_left_out() {
         let loops = [circle(1.0, 60, 1.0), circle(0.5, 30, -1.0)];
-        let found = resampling_positions(&loops, 0.05, 10_000, &|| false).unwrap();
+        let found = resampling_positions(&loops, 0.05, 10_000, &Job::unlimited()).unwrap();
         let area = std::f64::consts::PI * (1.0 - 0.25) / (0.05 * 0.05);
         assert!((found.len() as f64) > 0.8 * area && (found.len() as f64) < area);
         let radius = |p: &Point2| p[0].hypot(p[1]);
@@ -190,10 +188,10 @@ mod tests {
     fn too_many_samples_and_an_interruption_are_errors() {
         let loops = [circle(1.0, 60, 1.0)];
         for step in [0.01, 1e-12] {
-            let error = resampling_positions(&loops, step, 100, &|| false).unwrap_err();
+            let error = resampling_positions(&loops, step, 100, &Job::unlimited()).unwrap_err();
             assert_eq!(error.kind(), ErrorKind::Limit);
         }
-        let error = resampling_positions(&loops, 0.1, 1000, &|| true).unwrap_err();
+        let error = resampling_positions(&loops, 0.1, 1000, &Job::new(&|| true)).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Cancelled);
     }
 }

@@ -12,7 +12,8 @@ mod fit;
 mod mask;
 mod vicinity;
 
-use crate::error::{Error, ErrorKind, Result, proceed_every, proceed_unless};
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use crate::math::{Vec3, cross_normal};
 use crate::patch::{HoleShape, PatchSurface, Surroundings};
 use crate::triangulate::planar::triangulate_planar_region;
@@ -29,8 +30,8 @@ const FOLDED_SHARE: f64 = 0.02;
 const LEAST_PROJECTED_SHARE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Products of vicinity points and samples that are computed, about half a minute's work.
 const MOST_PRODUCTS: usize = 1 << 30;
-/// Products between two questions whether to stop: a few milliseconds.
-const PRODUCTS_PER_CHECK: usize = 1 << 16;
+/// Products of a weight and a monomial that are computed in the time that a tick stands for.
+const PRODUCTS_PER_TICK: usize = 4;
 /// Times that chords are cut that the mesh has as edges already; each time there are fewer.
 const CHORD_ROUNDS: usize = 4;
 /// Over the hole's radius: the length in which distances count, [`MlsUnit::Radius`].
@@ -112,19 +113,19 @@ impl<'a> HeightField<'a> {
         hole: &'a HoleShape,
         surroundings: &Surroundings,
         options: &'a MlsOptions,
-        interrupted: &dyn Fn() -> bool,
+        job: &Job<'_>,
     ) -> Result<Self> {
         let loops = rim_loops(hole)?;
-        proceed_unless(interrupted)?;
-        let vicinity = Vicinity::new(hole, surroundings, options.beta, interrupted)?;
-        proceed_unless(interrupted)?;
+        job.ask()?;
+        let vicinity = Vicinity::new(hole, surroundings, options.beta, job)?;
+        job.ask()?;
         let rim: Vec<Vec3> = hole
             .polygon
             .iter()
             .map(|&v| hole.points[v as usize])
             .collect();
         let on = |domain: Domain| {
-            let projection = Projection::new(&domain, &vicinity, &loops, interrupted)?;
+            let projection = Projection::new(&domain, &vicinity, &loops, job)?;
             Ok((domain, projection))
         };
         let plane = || Domain::plane(&vicinity, &rim).and_then(on);
@@ -166,10 +167,10 @@ impl<'a> HeightField<'a> {
         &self,
         channels: &[Vec<f64>],
         points: &[Vec3],
-        interrupted: &dyn Fn() -> bool,
+        job: &Job<'_>,
     ) -> Result<Vec<Vec<f64>>> {
         let places: Vec<Point2> = points.iter().map(|p| self.domain.place(p).uv).collect();
-        self.fitted(channels, &places, interrupted)
+        self.fitted(channels, &places, job)
     }
 
     /// The patch: the rim, the samples, and the triangles between them.
@@ -177,11 +178,7 @@ impl<'a> HeightField<'a> {
     /// # Errors
     /// [`ErrorKind::Limit`] for more than `limit` samples or too many of them for the size of the vicinity;
     /// those of the fit and of the triangulation; [`ErrorKind::Cancelled`].
-    pub(crate) fn patch(
-        &self,
-        limit: usize,
-        interrupted: &dyn Fn() -> bool,
-    ) -> Result<PatchSurface> {
+    pub(crate) fn patch(&self, limit: usize, job: &Job<'_>) -> Result<PatchSurface> {
         let hole = self.hole;
         let at = |v: &u32| self.uv[*v as usize];
         let loops: Vec<Vec<Point2>> = self
@@ -190,10 +187,10 @@ impl<'a> HeightField<'a> {
             .map(|l| l.iter().map(at).collect())
             .collect();
         let step = self.vicinity.step;
-        let mut samples = mask::resampling_positions(&loops, step, limit, interrupted)?;
+        let mut samples = mask::resampling_positions(&loops, step, limit, job)?;
         // The triangulation counts the vertices of the loops and then the samples.
         let order: Vec<u32> = self.loops.iter().flatten().copied().collect();
-        let mut triangles = triangulate_planar_region(&loops, &samples, interrupted)?;
+        let mut triangles = triangulate_planar_region(&loops, &samples, job)?;
         for round in 0.. {
             let chords = self.existing_edges(&order, &triangles);
             if chords.is_empty() || round == CHORD_ROUNDS {
@@ -203,9 +200,9 @@ impl<'a> HeightField<'a> {
                 let [a, b] = c.map(|v| self.uv[v as usize]);
                 [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
             }));
-            triangles = triangulate_planar_region(&loops, &samples, interrupted)?;
+            triangles = triangulate_planar_region(&loops, &samples, job)?;
         }
-        let heights = self.fitted(std::slice::from_ref(&self.heights), &samples, interrupted)?;
+        let heights = self.fitted(std::slice::from_ref(&self.heights), &samples, job)?;
         let mut points = hole.points.clone();
         points.extend(samples.iter().zip(&heights[0]).map(|(&uv, &height)| {
             let place = Place { uv, height };
@@ -246,7 +243,7 @@ impl<'a> HeightField<'a> {
         &self,
         channels: &[Vec<f64>],
         places: &[Point2],
-        interrupted: &dyn Fn() -> bool,
+        job: &Job<'_>,
     ) -> Result<Vec<Vec<f64>>> {
         let count = self.uv.len();
         if count.saturating_mul(places.len()) > MOST_PRODUCTS {
@@ -264,11 +261,10 @@ impl<'a> HeightField<'a> {
             degree: self.options.degree,
         };
         let mut evaluator = fit.evaluator();
-        let places_per_check = (PRODUCTS_PER_CHECK / count.max(1)).max(1);
         let mut result = vec![Vec::with_capacity(places.len()); channels.len()];
         let mut values = vec![0.0; channels.len()];
-        for (i, &place) in places.iter().enumerate() {
-            proceed_every(places_per_check, i, interrupted)?;
+        for &place in places {
+            job.tick(count / PRODUCTS_PER_TICK)?;
             if !evaluator.evaluate(place, &mut values) {
                 let message = "the weighted least squares have no solution at a sample";
                 return Err(Error::new(ErrorKind::Solver, message));
@@ -312,9 +308,9 @@ impl Projection {
         domain: &Domain,
         vicinity: &Vicinity,
         loops: &[Vec<u32>],
-        interrupted: &dyn Fn() -> bool,
+        job: &Job<'_>,
     ) -> Result<Self> {
-        proceed_unless(interrupted)?;
+        job.ask()?;
         let places: Vec<Place> = vicinity.points.iter().map(|p| domain.place(p)).collect();
         let (mut turned, mut all, mut in_space) = (0.0, 0.0, 0.0);
         for t in &vicinity.triangles {
@@ -340,7 +336,7 @@ impl Projection {
                 let message = format!("the rim has no place in {onto}");
                 return Err(Error::new(ErrorKind::Geometry, message));
             }
-            if let Some((i, j)) = find_contact(&polygon, interrupted)? {
+            if let Some((i, j)) = find_contact(&polygon, job)? {
                 let message = format!("edges {i} and {j} of the rim meet in {onto}");
                 return Err(Error::new(ErrorKind::Geometry, message));
             }

@@ -1,6 +1,7 @@
 //! Patches over surfaces that are known.
 
 use super::*;
+use crate::job::Job;
 
 /// The hole in a grid over `[-1, 1]²` that is lifted by `f`, inside the circle of this radius.
 fn hole_in_grid(f: impl Fn(f64, f64) -> Vec3, n: i32, radius: f64) -> HoleShape {
@@ -61,7 +62,8 @@ fn hole_in_grid(f: impl Fn(f64, f64) -> Vec3, n: i32, radius: f64) -> HoleShape 
 }
 
 fn filled(hole: &HoleShape, options: &MlsOptions) -> Result<PatchSurface> {
-    HeightField::new(hole, &hole.surroundings, options, &|| false)?.patch(100_000, &|| false)
+    HeightField::new(hole, &hole.surroundings, options, &Job::unlimited())?
+        .patch(100_000, &Job::unlimited())
 }
 
 #[test]
@@ -130,16 +132,18 @@ fn what_folds_in_the_plane_is_refused_and_filled_over_the_sphere() {
 fn other_values_are_extended_like_the_heights() {
     let hole = hole_in_grid(|u, v| Vec3::new(u, v, 0.1 * u * v), 12, 0.5);
     let options = MlsOptions::default();
-    let field = HeightField::new(&hole, &hole.surroundings, &options, &|| false).unwrap();
+    let field = HeightField::new(&hole, &hole.surroundings, &options, &Job::unlimited()).unwrap();
     let value = |p: &Vec3| 3.0 + p.x - p.x * p.y;
     let known = field
         .vertices()
         .iter()
         .map(|&v| value(&hole.point(v)))
         .collect();
-    let surface = field.patch(100_000, &|| false).unwrap();
+    let surface = field.patch(100_000, &Job::unlimited()).unwrap();
     let new_points = &surface.points[surface.rim_count..];
-    let found = field.extend(&[known], new_points, &|| false).unwrap();
+    let found = field
+        .extend(&[known], new_points, &Job::unlimited())
+        .unwrap();
     for (p, found) in new_points.iter().zip(&found[0]) {
         assert!((found - value(p)).abs() < 5e-3, "{found} at {p}");
     }
@@ -149,13 +153,13 @@ fn other_values_are_extended_like_the_heights() {
 fn limits_and_interruptions_are_errors() {
     let hole = hole_in_grid(|u, v| Vec3::new(u, v, 0.0), 12, 0.5);
     let options = MlsOptions::default();
-    let field = HeightField::new(&hole, &hole.surroundings, &options, &|| false).unwrap();
+    let field = HeightField::new(&hole, &hole.surroundings, &options, &Job::unlimited()).unwrap();
     assert_eq!(
-        field.patch(10, &|| false).unwrap_err().kind(),
+        field.patch(10, &Job::unlimited()).unwrap_err().kind(),
         ErrorKind::Limit
     );
     assert_eq!(
-        field.patch(1000, &|| true).unwrap_err().kind(),
+        field.patch(1000, &Job::new(&|| true)).unwrap_err().kind(),
         ErrorKind::Cancelled
     );
 }

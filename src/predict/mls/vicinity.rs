@@ -1,12 +1,10 @@
 //! The known points near a rim, through which the height field is fitted.
 
-use crate::error::{Error, ErrorKind, Result, proceed_every};
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::math::segments::Segments;
 use crate::patch::{HoleShape, Surroundings};
-
-/// Distances to the rim that are measured between two questions whether to stop: about a millisecond's work.
-const DISTANCES_PER_CHECK: usize = 1024;
 
 /// The points nearer to the rim than a number of sampling steps, and the triangles between them.
 pub(crate) struct Vicinity {
@@ -25,13 +23,12 @@ impl Vicinity {
     /// so far.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] when the triangles at the rim have no area; [`ErrorKind::Cancelled`] when `interrupted`
-    /// returns true.
+    /// [`ErrorKind::Geometry`] when the triangles at the rim have no area; [`ErrorKind::Cancelled`].
     pub(crate) fn new(
         hole: &HoleShape,
         surroundings: &Surroundings,
         beta: f64,
-        interrupted: &dyn Fn() -> bool,
+        job: &Job<'_>,
     ) -> Result<Self> {
         let step = hole.sampling_step();
         if !(step.is_finite() && step > 0.0) {
@@ -43,7 +40,7 @@ impl Vicinity {
         let edges = (0..polygon.len())
             .map(|i| [polygon[i], polygon[(i + 1) % polygon.len()]])
             .map(|edge| edge.map(|v| hole.points[v as usize]));
-        let rim = Segments::new(edges.collect());
+        let rim = Segments::new(edges.collect(), job)?;
         let limit = (beta * step) * (beta * step);
         let mut vicinity = Self {
             vertices: (0..rim_count as u32).collect(),
@@ -53,7 +50,7 @@ impl Vicinity {
         };
         let mut place: Vec<Option<u32>> = vicinity.vertices.iter().copied().map(Some).collect();
         for (i, p) in surroundings.points.iter().enumerate() {
-            proceed_every(DISTANCES_PER_CHECK, i, interrupted)?;
+            job.tick(30)?;
             let is_near = rim.distance_sq(p) < limit;
             place.push(is_near.then_some(vicinity.points.len() as u32));
             if is_near {

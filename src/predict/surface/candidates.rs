@@ -7,6 +7,7 @@ use super::hermite_rbf::{HermiteRbf, Kernel};
 use super::primitives::{cone::Cone, cylinder::Cylinder, torus::Torus};
 use super::samples::SampledBand;
 use super::{Implicit, Sample};
+use crate::error::Result;
 
 /// Most samples of an interpolating function that is scored, and of one that is used: the cost grows with the cube, the
 /// accuracy little.
@@ -147,31 +148,28 @@ impl Candidate {
         self,
         samples: &mut SampledBand,
         vertices: &[u32],
-    ) -> Option<Box<dyn Implicit>> {
+    ) -> Result<Option<Box<dyn Implicit>>> {
         let reads_smoothed = samples.is_noisy() && !matches!(self, Self::Cubic | Self::Quintic);
         let rings = reads_smoothed.then(|| samples.rings_over_noise());
         self.fit_to(samples, vertices, rings)
     }
 
-    /// Fits the surface to the vertices, smoothed over so many rings of neighbours. `None` also when the caller asked to
-    /// stop.
+    /// Fits the surface to the vertices, smoothed over so many rings of neighbours.
     fn fit_to(
         self,
         samples: &mut SampledBand,
         vertices: &[u32],
         rings: Option<usize>,
-    ) -> Option<Box<dyn Implicit>> {
+    ) -> Result<Option<Box<dyn Implicit>>> {
         let mut chosen = Vec::with_capacity(vertices.len());
         for &v in vertices {
-            if samples.is_stopped() {
-                return None;
-            }
+            samples.job.tick(300)?;
             chosen.push(match rings {
                 Some(rings) => samples.smoothed_sample(v, rings),
                 None => samples.sample(v),
             });
         }
-        self.fit_samples(&chosen)
+        Ok(self.fit_samples(&chosen))
     }
 
     /// Fits the surface to the samples.
@@ -195,12 +193,12 @@ impl Candidate {
     }
 
     /// The surface that continues the surroundings into the hole.
-    pub(crate) fn fit_to_rim(self, samples: &mut SampledBand) -> Option<Box<dyn Implicit>> {
+    pub(crate) fn fit_to_rim(self, samples: &mut SampledBand) -> Result<Option<Box<dyn Implicit>>> {
         let last = match self {
             Self::Cubic | Self::Quintic => LAST_CENTER_LEVEL,
             _ => FITTED_RINGS,
         };
-        let vertices = samples.spread(0..last + 1, self.most_samples()[1]);
+        let vertices = samples.spread(0..last + 1, self.most_samples()[1])?;
         let over_noise = samples.is_noisy().then(|| samples.rings_over_noise());
         let rings = match self {
             Self::Cubic | Self::Quintic => None,
@@ -223,6 +221,7 @@ mod tests {
     use super::super::jets::Band;
     use super::super::march;
     use super::*;
+    use crate::job::UNLIMITED;
     use crate::math::Vec3;
 
     /// The surroundings of a round hole in a paraboloid that rises by a twentieth of the hole's width, with ripples of
@@ -237,14 +236,15 @@ mod tests {
         for p in shape.points.iter_mut().chain(around) {
             p.y *= flatness;
         }
-        SampledBand::new(Band::new(&shape, &|| false).unwrap(), &shape, 1.0, true)
+        let band = Band::new(&shape, &UNLIMITED).unwrap();
+        SampledBand::new(band, &shape, 1.0, true, &UNLIMITED)
     }
 
     /// How far off the surface is in the middle, over eight phases of the ripples.
     fn off_at_middle(candidate: Candidate, around: u32, ripple: f64) -> f64 {
         let squares = (0..8).map(|i| {
             let mut samples = rippled(around, ripple, 0.7 * f64::from(i), 1.0);
-            let surface = candidate.fit_to_rim(&mut samples).unwrap();
+            let surface = candidate.fit_to_rim(&mut samples).unwrap().unwrap();
             march::distance(surface.as_ref(), &Vec3::zeros()).powi(2)
         });
         (squares.sum::<f64>() / 8.0).sqrt()

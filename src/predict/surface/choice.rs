@@ -15,6 +15,7 @@
 use super::candidates::Candidate;
 use super::samples::SampledBand;
 use super::{Implicit, march};
+use crate::error::Result;
 
 /// Widest band that is left out, in rings, and that which is fitted.
 const MOST_LEFT_OUT: u32 = 3;
@@ -62,15 +63,15 @@ const EDGES_PER_RING: usize = 6;
 ///
 /// Once a candidate is as good as exact, those with more freedom are not tried any more. One that is far behind after
 /// some of the bands is not tried on the others; its score is then as far behind the best one as it was there.
-pub(crate) fn scores(samples: &mut SampledBand, candidates: &[Candidate]) -> Vec<Score> {
+///
+/// # Errors
+/// `Cancelled` when the job of the samples is stopped.
+pub(crate) fn scores(samples: &mut SampledBand, candidates: &[Candidate]) -> Result<Vec<Score>> {
     let rim_edges = samples.rim_edges;
     let widest = (rim_edges.div_ceil(EDGES_PER_RING) as u32).clamp(1, MOST_LEFT_OUT);
     let mut scores: Vec<Score> = Vec::new();
     let mut race = Race::default();
     for &candidate in candidates {
-        if samples.is_stopped() {
-            break;
-        }
         let best = scores.iter().map(|s| s.1).fold(f64::INFINITY, f64::min);
         let is_settled = scores
             .iter()
@@ -82,7 +83,7 @@ pub(crate) fn scores(samples: &mut SampledBand, candidates: &[Candidate]) -> Vec
         if gate.is_some_and(|score| score > GATE_FACTOR * best.max(AS_GOOD_AS_EXACT)) {
             continue;
         }
-        let mut score = race.run(samples, candidate, widest);
+        let mut score = race.run(samples, candidate, widest)?;
         if candidate == Candidate::Quintic
             && let Some(cubic) = cubic_score(&scores)
         {
@@ -92,7 +93,7 @@ pub(crate) fn scores(samples: &mut SampledBand, candidates: &[Candidate]) -> Vec
             scores.push((candidate, score));
         }
     }
-    scores
+    Ok(scores)
 }
 
 /// The score of the cubic kernel through the points that it suits best, as they are or smoothed.
@@ -152,8 +153,8 @@ struct Race {
 impl Race {
     /// The geometric mean over the left out bands of the distances to the surface, times the factor of interpolating
     /// functions; for a candidate that falls too far behind, the best one's times the factor by which it is behind.
-    /// Infinite when nothing could be fitted or the caller asked to stop.
-    fn run(&mut self, samples: &mut SampledBand, candidate: Candidate, widest: u32) -> f64 {
+    /// Infinite when nothing could be fitted.
+    fn run(&mut self, samples: &mut SampledBand, candidate: Candidate, widest: u32) -> Result<f64> {
         let factor = if candidate.interpolates() {
             INTERPOLATION_FACTOR
         } else {
@@ -162,23 +163,21 @@ impl Race {
         let mut logarithms = 0.0;
         let mut means = Vec::new();
         for r in 1..=widest {
-            if samples.is_stopped() {
-                return f64::INFINITY;
-            }
-            let vertices = samples.spread(r..r + FITTED_RINGS + 1, candidate.most_scored());
+            samples.job.ask()?;
+            let vertices = samples.spread(r..r + FITTED_RINGS + 1, candidate.most_scored())?;
             if vertices.len() < FEWEST_SAMPLES {
                 continue;
             }
-            let Some(surface) = candidate.fit(samples, &vertices) else {
-                return f64::INFINITY;
+            let Some(surface) = candidate.fit(samples, &vertices)? else {
+                return Ok(f64::INFINITY);
             };
-            logarithms += (left_out_distance(samples, r, surface.as_ref()) + EXACT).ln();
+            logarithms += (left_out_distance(samples, r, surface.as_ref())? + EXACT).ln();
             let mean = factor * f64::exp(logarithms / (means.len() + 1) as f64);
             if let (Some(&best), Some(last)) = (self.best.get(means.len()), self.best.last())
                 && mean > AS_GOOD_AS_EXACT.max(OUT_OF_REACH * best)
             {
                 // What was not compared with all bands is not as good as exact.
-                return mean / best * last.max(AS_GOOD_AS_EXACT);
+                return Ok(mean / best * last.max(AS_GOOD_AS_EXACT));
             }
             means.push(mean);
         }
@@ -186,16 +185,17 @@ impl Race {
         for (best, mean) in self.best.iter_mut().zip(&means) {
             *best = best.min(*mean);
         }
-        means.last().copied().unwrap_or(f64::INFINITY)
+        Ok(means.last().copied().unwrap_or(f64::INFINITY))
     }
 }
 
 /// Root mean square distance of the vertices below level `r` to the surface, in rim edge lengths.
-fn left_out_distance(samples: &mut SampledBand, r: u32, surface: &dyn Implicit) -> f64 {
-    let vertices = samples.spread(0..r, MOST_TESTS);
+fn left_out_distance(samples: &mut SampledBand, r: u32, surface: &dyn Implicit) -> Result<f64> {
+    let vertices = samples.spread(0..r, MOST_TESTS)?;
     let mut squares = 0.0;
     let mut count = 0.0;
     for &v in &vertices {
+        samples.job.tick(500)?;
         let distance = march::distance(surface, &samples.band.points[v as usize]) / samples.step;
         // Not a number counts as far off.
         squares += if distance < FARTHEST {
@@ -205,7 +205,7 @@ fn left_out_distance(samples: &mut SampledBand, r: u32, surface: &dyn Implicit) 
         };
         count += 1.0;
     }
-    (squares / f64::max(count, 1.0)).sqrt()
+    Ok((squares / f64::max(count, 1.0)).sqrt())
 }
 
 #[cfg(test)]
@@ -213,21 +213,27 @@ mod tests {
     use super::super::fixtures::rings_around;
     use super::super::jets::Band;
     use super::*;
+    use crate::job::UNLIMITED;
 
     /// Rings round the hole of a paraboloid of this steepness.
     fn sampled(steepness: f64) -> SampledBand<'static> {
         let hole = rings_around(24, |x, y| steepness * (x * x + y * y));
-        SampledBand::new(Band::new(&hole, &|| false).unwrap(), &hole, 1.0, true)
+        let band = Band::new(&hole, &UNLIMITED).unwrap();
+        SampledBand::new(band, &hole, 1.0, true, &UNLIMITED)
     }
 
     #[test]
     fn what_falls_behind_is_not_as_good_as_exact() {
         let mut samples = sampled(0.05);
-        let whole = Race::default().run(&mut samples, Candidate::Plane, MOST_LEFT_OUT);
+        let whole = Race::default()
+            .run(&mut samples, Candidate::Plane, MOST_LEFT_OUT)
+            .unwrap();
         assert!(whole > 0.1, "{whole}");
         let best = vec![whole / 10.0, 1e-3, 1e-5];
         let mut race = Race { best: best.clone() };
-        let behind = race.run(&mut samples, Candidate::Plane, MOST_LEFT_OUT);
+        let behind = race
+            .run(&mut samples, Candidate::Plane, MOST_LEFT_OUT)
+            .unwrap();
         assert!(
             behind > OUT_OF_REACH * AS_GOOD_AS_EXACT && behind < whole,
             "{behind}"
@@ -276,7 +282,7 @@ mod tests {
     #[test]
     fn nothing_with_more_freedom_than_an_exact_surface_is_tried() {
         let mut samples = sampled(0.0);
-        let scores = scores(&mut samples, &Candidate::ALL);
+        let scores = scores(&mut samples, &Candidate::ALL).unwrap();
         assert!(is_exact(&scores), "{scores:?}");
         assert_eq!(score_of(&scores, Candidate::Cubic), None);
         assert_eq!(choose(&scores, false), Some(Candidate::Plane));

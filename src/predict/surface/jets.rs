@@ -11,7 +11,8 @@
 //! A fit costs `O(k)` for `k` neighbours, some twenty, and a 5x5 or 6x6 eigenvalue problem. Not guaranteed: that
 //! the fitted normal is better than that of the triangles where the surface has a crease.
 
-use crate::error::{Result, proceed_every, proceed_unless};
+use crate::error::Result;
+use crate::job::Job;
 use crate::math::{Vec3, unit};
 use crate::patch::HoleShape;
 use nalgebra::{SMatrix, SVector, SymmetricEigen};
@@ -32,16 +33,11 @@ const SINGULAR_SHARE: f64 = 1e-3;
 /// is local, a smoothing one needs all its neighbours.
 const INTERPOLATING_DECAY: f64 = 1.0;
 const SMOOTHING_DECAY: f64 = 0.3;
-/// Normals that are fitted between two questions whether to stop.
-const NORMALS_PER_CHECK: usize = 256;
 /// Vertices at which noise is estimated, at most: their median does not need all.
 const NOISE_PROBES: usize = 50;
 /// What a quadric misses of a smooth surface grows with the cube of the distance: over three rings it deviates by
 /// 1.5³ times as much as over two, in squares by this factor. Noise does not grow.
 const SQUARED_GROWTH: f64 = 11.390625;
-
-/// Triangles or vertices that are read between two questions whether to stop: about a millisecond's work.
-const TRIANGLES_PER_CHECK: usize = 8192;
 
 /// The known surface round a hole as vertices with neighbours.
 pub(crate) struct Band {
@@ -70,8 +66,8 @@ impl Band {
     /// Reads the surroundings of a hole. `O(n)` for `n` triangles in them.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Cancelled`] when `interrupted` returns true.
-    pub(crate) fn new(hole: &HoleShape, interrupted: &dyn Fn() -> bool) -> Result<Self> {
+    /// [`crate::ErrorKind::Cancelled`] when the job is stopped.
+    pub(crate) fn new(hole: &HoleShape, job: &Job<'_>) -> Result<Self> {
         let rim_count = hole.points.len();
         let mut points = hole.points.clone();
         points.extend_from_slice(&hole.surroundings.points);
@@ -80,8 +76,8 @@ impl Band {
         let mut triangle_normals = vec![Vec3::zeros(); points.len()];
         let triangles = &hole.surroundings.triangles;
         let mut starts = vec![0_u32; points.len() + 1];
-        for (i, t) in triangles.iter().enumerate() {
-            proceed_every(TRIANGLES_PER_CHECK, i, interrupted)?;
+        for t in triangles {
+            job.tick(4)?;
             let p = t.map(|v| points[v as usize]);
             let normal = unit((p[1] - p[0]).cross(&(p[2] - p[0])));
             for k in 0..3 {
@@ -92,15 +88,15 @@ impl Band {
             }
         }
         triangle_normals.iter_mut().for_each(|n| *n = unit(*n));
-        proceed_unless(interrupted)?;
+        job.ask()?;
         for v in 0..points.len() {
             starts[v + 1] += starts[v];
         }
         // The two other corners of each triangle at each vertex: most neighbours occur twice.
         let mut places = starts.clone();
         let mut corners = vec![0_u32; 6 * triangles.len()];
-        for (i, t) in triangles.iter().enumerate() {
-            proceed_every(TRIANGLES_PER_CHECK, i, interrupted)?;
+        for t in triangles {
+            job.tick(4)?;
             for k in 0..3 {
                 let place = &mut places[t[k] as usize];
                 let at = *place as usize;
@@ -111,7 +107,7 @@ impl Band {
         let mut neighbor_starts = vec![0_u32; points.len() + 1];
         let mut neighbors = Vec::with_capacity(corners.len() / 2);
         for v in 0..points.len() {
-            proceed_every(TRIANGLES_PER_CHECK, v, interrupted)?;
+            job.tick(4)?;
             let row = &mut corners[starts[v] as usize..starts[v + 1] as usize];
             row.sort_unstable();
             for (i, &u) in row.iter().enumerate() {
@@ -121,7 +117,7 @@ impl Band {
             }
             neighbor_starts[v + 1] = neighbors.len() as u32;
         }
-        proceed_unless(interrupted)?;
+        job.ask()?;
         Ok(Self {
             points,
             levels,
@@ -158,15 +154,11 @@ impl Band {
     /// The same at the first `count` vertices: those of the rim come first.
     ///
     /// # Errors
-    /// `Cancelled` when `interrupted` returns true.
-    pub(crate) fn interpolating_normals(
-        &self,
-        count: usize,
-        interrupted: &dyn Fn() -> bool,
-    ) -> Result<Vec<Vec3>> {
+    /// `Cancelled` when the job is stopped.
+    pub(crate) fn interpolating_normals(&self, count: usize, job: &Job<'_>) -> Result<Vec<Vec3>> {
         let mut normals = Vec::with_capacity(count);
         for v in 0..count {
-            proceed_every(NORMALS_PER_CHECK, v, interrupted)?;
+            job.tick(200)?;
             normals.push(self.interpolating_normal(v as u32));
         }
         Ok(normals)

@@ -3,6 +3,8 @@
 use super::Sample;
 use super::choice::RINGS;
 use super::jets::Band;
+use crate::error::Result;
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::patch::HoleShape;
 use std::ops::Range;
@@ -31,6 +33,9 @@ const MOST_SMOOTHING_RINGS: f64 = RINGS as f64;
 /// The noise is read from rings up to this one: further out fits would miss neighbours.
 const LAST_NOISE_LEVEL: u32 = 7;
 
+/// Distances between points that are measured in the time that a tick stands for.
+const POINTS_PER_TICK: usize = 8;
+
 /// The known surface round a hole, read on demand.
 pub(crate) struct SampledBand<'a> {
     pub(crate) band: Band,
@@ -48,13 +53,19 @@ pub(crate) struct SampledBand<'a> {
     normals: Vec<Option<Vec3>>,
     /// Rings of neighbours and what fits over them gave.
     smoothed: Vec<Option<(usize, Sample)>>,
-    interrupted: &'a dyn Fn() -> bool,
+    pub(crate) job: &'a Job<'a>,
 }
 
 impl<'a> SampledBand<'a> {
     /// Measures the noise; normals are computed when they are asked for. `band` belongs to `hole` or a part of its
     /// surroundings, `step` is the mean edge length at its rim. Without `use_jets` normals are those of the triangles.
-    pub(crate) fn new(band: Band, hole: &HoleShape, step: f64, use_jets: bool) -> Self {
+    pub(crate) fn new(
+        band: Band,
+        hole: &HoleShape,
+        step: f64,
+        use_jets: bool,
+        job: &'a Job<'a>,
+    ) -> Self {
         let count = band.points.len();
         let noise = band.noise(LAST_NOISE_LEVEL) / step;
         Self {
@@ -67,15 +78,8 @@ impl<'a> SampledBand<'a> {
             spreads: Vec::new(),
             normals: vec![None; count],
             smoothed: vec![None; count],
-            interrupted: &|| false,
+            job,
         }
-    }
-
-    /// The same, of no more use once `interrupted` returns true: then [`spread`](Self::spread) ends early, and so does
-    /// other work that asks [`is_stopped`](Self::is_stopped).
-    pub(crate) fn stopped_by(mut self, interrupted: &'a dyn Fn() -> bool) -> Self {
-        self.interrupted = interrupted;
-        self
     }
 
     /// Whether the positions are noisy: then fits that interpolate them follow the noise.
@@ -120,11 +124,6 @@ impl<'a> SampledBand<'a> {
         }
     }
 
-    /// Whether the caller asked to stop.
-    pub(crate) fn is_stopped(&self) -> bool {
-        (self.interrupted)()
-    }
-
     /// The vertex moved onto a smooth surface through so many rings of neighbours, and the normal of that.
     pub(crate) fn smoothed_sample(&mut self, vertex: u32, rings: usize) -> Sample {
         let v = vertex as usize;
@@ -146,22 +145,25 @@ impl<'a> SampledBand<'a> {
 
     /// At most `most` of the vertices whose level is in `levels`, spread as evenly as possible: each is the one
     /// farthest from those before it, beginning with the one farthest from the middle.
-    pub(crate) fn spread(&mut self, levels: Range<u32>, most: usize) -> Vec<u32> {
+    ///
+    /// # Errors
+    /// `Cancelled` when the job is stopped.
+    pub(crate) fn spread(&mut self, levels: Range<u32>, most: usize) -> Result<Vec<u32>> {
         let known = self.spreads.iter().find(|s| s.0 == levels && s.1 >= most);
         if let Some((.., vertices)) = known {
             // Fewer vertices are the first ones of more.
-            return vertices[..most.min(vertices.len())].to_vec();
+            return Ok(vertices[..most.min(vertices.len())].to_vec());
         }
-        let vertices = self.spread_anew(levels.clone(), most);
+        let vertices = self.spread_anew(levels.clone(), most)?;
         self.spreads.push((levels, most, vertices.clone()));
-        vertices
+        Ok(vertices)
     }
 
-    fn spread_anew(&self, levels: Range<u32>, most: usize) -> Vec<u32> {
+    fn spread_anew(&self, levels: Range<u32>, most: usize) -> Result<Vec<u32>> {
         let mut vertices = self.band.vertices_in(levels);
         vertices.retain(|&v| self.band.triangle_normals[v as usize] != Vec3::zeros());
         if vertices.is_empty() {
-            return vertices;
+            return Ok(vertices);
         }
         let points: Vec<Vec3> = vertices
             .iter()
@@ -173,7 +175,8 @@ impl<'a> SampledBand<'a> {
         let mut chosen = Vec::with_capacity(most.min(vertices.len()));
         let mut next = farthest(&reach);
         reach.fill(f64::INFINITY);
-        while chosen.len() < most && !self.is_stopped() {
+        while chosen.len() < most {
+            self.job.tick(points.len() / POINTS_PER_TICK)?;
             let at = points[next];
             chosen.push(vertices[next]);
             for (distance, p) in reach.iter_mut().zip(&points) {
@@ -184,7 +187,7 @@ impl<'a> SampledBand<'a> {
                 break;
             }
         }
-        chosen
+        Ok(chosen)
     }
 }
 

@@ -18,6 +18,7 @@ mod tests;
 
 use super::simple_polygon::Point2;
 use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::math::random::seeded;
 use annealing::Annealing;
@@ -101,20 +102,19 @@ pub struct Unfolding {
 /// Bounded by runs times steps; a step takes about O(m^1.5) for `m` points.
 pub fn unfold_curve(points: &[[f64; 3]], options: &UnfoldOptions, seed: u64) -> Result<Unfolding> {
     let points: Vec<Vec3> = points.iter().map(|&p| p.into()).collect();
-    unfold(&points, options, seed, &|| false)
+    unfold(&points, options, seed, &Job::unlimited())
 }
 
-/// [`unfold_curve`] that can be stopped: `interrupted` is asked before each step, true ends the work with
-/// [`ErrorKind::Cancelled`].
+/// As [`unfold_curve`]; [`ErrorKind::Cancelled`] when the job is stopped.
 pub(crate) fn unfold(
     points: &[Vec3],
     options: &UnfoldOptions,
     seed: u64,
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<Unfolding> {
     let curve = in_mean_edges(points)?;
     if options.solver == UnfoldSolver::Descent
-        && let Some(polygon) = onto_best_plane(&curve, interrupted)?
+        && let Some(polygon) = onto_best_plane(&curve, job)?
     {
         return Ok(unfolded(&curve, polygon, 0, 0));
     }
@@ -135,8 +135,8 @@ pub(crate) fn unfold(
     let restarts = options.restarts.unwrap_or(default_restarts);
     for run in 0..restarts {
         let outcome = match options.solver {
-            UnfoldSolver::Descent => descend(&curve, options, (seed, run), interrupted)?,
-            UnfoldSolver::Annealing => anneal(&curve, options, (seed, run), interrupted)?,
+            UnfoldSolver::Descent => descend(&curve, options, (seed, run), job)?,
+            UnfoldSolver::Annealing => anneal(&curve, options, (seed, run), job)?,
         };
         if let Some((polygon, steps)) = outcome {
             return Ok(unfolded(&curve, polygon, run + 1, steps));
@@ -171,18 +171,16 @@ fn descend(
     curve: &[Vec3],
     options: &UnfoldOptions,
     (seed, run): (u64, usize),
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<Option<(Vec<Point2>, usize)>> {
     let kicks = (run > 0).then(|| seeded(seed, run as u64));
     let mut descent = Descent::new(curve, options.epsilon, kicks);
     for step in 1..=step_limit(options, curve.len()) {
-        if interrupted() {
-            return Err(Error::cancelled());
-        }
+        job.tick(curve.len())?;
         if !descent.step() {
             break;
         }
-        if let Some(polygon) = onto_best_plane(descent.points(), interrupted)? {
+        if let Some(polygon) = onto_best_plane(descent.points(), job)? {
             return Ok(Some((polygon, step)));
         }
     }
@@ -194,17 +192,15 @@ fn anneal(
     curve: &[Vec3],
     options: &UnfoldOptions,
     (seed, run): (u64, usize),
-    interrupted: &dyn Fn() -> bool,
+    job: &Job<'_>,
 ) -> Result<Option<(Vec<Point2>, usize)>> {
     let mut annealing = Annealing::new(curve, options, seeded(seed, run as u64));
     let mut accepted = 0;
     for _ in 0..step_limit(options, curve.len()) {
-        if interrupted() {
-            return Err(Error::cancelled());
-        }
+        job.tick(curve.len())?;
         accepted += usize::from(annealing.step());
     }
-    let polygon = onto_best_plane(annealing.points(), interrupted)?;
+    let polygon = onto_best_plane(annealing.points(), job)?;
     Ok(polygon.map(|polygon| (polygon, accepted)))
 }
 

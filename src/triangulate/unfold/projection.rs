@@ -9,23 +9,21 @@
 
 use super::super::simple_polygon::{Point2, find_contact};
 use crate::error::Result;
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::math::plane::principal_axes;
 
 /// The polygon projected onto its plane of least squares, if it is simple there.
 ///
 /// # Errors
-/// `Cancelled` when `interrupted` returns true.
-pub(super) fn onto_best_plane(
-    points: &[Vec3],
-    interrupted: &dyn Fn() -> bool,
-) -> Result<Option<Vec<Point2>>> {
+/// `Cancelled` when the job is stopped.
+pub(super) fn onto_best_plane(points: &[Vec3], job: &Job<'_>) -> Result<Option<Vec<Point2>>> {
     let (centroid, [x, y, _]) = principal_axes(points);
     let flat: Vec<Point2> = points
         .iter()
         .map(|p| [(p - centroid).dot(&x), (p - centroid).dot(&y)])
         .collect();
     let is_simple =
-        flat.iter().flatten().all(|c| c.is_finite()) && find_contact(&flat, interrupted)?.is_none();
+        flat.iter().flatten().all(|c| c.is_finite()) && find_contact(&flat, job)?.is_none();
     Ok(is_simple.then_some(flat))
 }

@@ -2,6 +2,7 @@
 
 use super::distance::Clearances;
 use super::*;
+use crate::job::Job;
 use rand::RngExt;
 use std::f64::consts::TAU;
 
@@ -127,7 +128,7 @@ fn smallest_distance_slow(points: &[Vec3]) -> f64 {
 fn a_planar_convex_curve_has_no_energy_and_is_projected_as_it_is() {
     let circle = circle(40);
     assert!(energy::planarity(&circle) < 1e-6);
-    let unfolding = unfold(&circle, &UnfoldOptions::default(), 0, &|| false).unwrap();
+    let unfolding = unfold(&circle, &UnfoldOptions::default(), 0, &Job::unlimited()).unwrap();
     assert_eq!((unfolding.runs, unfolding.steps), (0, 0));
     assert!((unfolding.length_ratio - 1.0).abs() < 1e-12);
     assert!((unfolding.winding.abs() - 1.0).abs() < 1e-12);
@@ -157,7 +158,8 @@ fn every_planar_curve_is_without_energy_and_a_corner_out_of_it_is_not() {
 #[test]
 fn a_trefoil_is_never_unfolded() {
     for m in [24, 60, 150] {
-        let error = unfold(&trefoil(m), &UnfoldOptions::default(), 0, &|| false).unwrap_err();
+        let error =
+            unfold(&trefoil(m), &UnfoldOptions::default(), 0, &Job::unlimited()).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Knotted);
         assert!(error.message().contains("not unfolded"), "{error}");
     }
@@ -165,16 +167,22 @@ fn a_trefoil_is_never_unfolded() {
         restarts: Some(5),
         ..annealing()
     };
-    let error = unfold(&trefoil(60), &options, 0, &|| false).unwrap_err();
+    let error = unfold(&trefoil(60), &options, 0, &Job::unlimited()).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Knotted);
 }
 
 #[test]
 fn a_strip_that_winds_round_a_cylinder_is_unfolded() {
     for turns in [0.5, 1.0, 1.5] {
-        let unfolding = unfold(&strip(80, turns), &UnfoldOptions::default(), 0, &|| false).unwrap();
+        let unfolding = unfold(
+            &strip(80, turns),
+            &UnfoldOptions::default(),
+            0,
+            &Job::unlimited(),
+        )
+        .unwrap();
         assert_eq!(
-            crate::triangulate::simple_polygon::find_contact(&unfolding.polygon, &|| false)
+            crate::triangulate::simple_polygon::find_contact(&unfolding.polygon, &Job::unlimited())
                 .unwrap(),
             None
         );
@@ -186,21 +194,27 @@ fn a_strip_that_winds_round_a_cylinder_is_unfolded() {
 fn a_curve_that_meets_itself_or_is_not_finite_is_refused() {
     let mut curve = strip(40, 1.0);
     curve[30] = curve[2];
-    let error = unfold(&curve, &UnfoldOptions::default(), 0, &|| false).unwrap_err();
+    let error = unfold(&curve, &UnfoldOptions::default(), 0, &Job::unlimited()).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Geometry);
     curve[30].x = f64::NAN;
     for curve in [&curve[..], &curve[..2]] {
-        let error = unfold(curve, &UnfoldOptions::default(), 0, &|| false).unwrap_err();
+        let error = unfold(curve, &UnfoldOptions::default(), 0, &Job::unlimited()).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::InvalidInput);
     }
-    let error = unfold(&[Vec3::x(); 7], &UnfoldOptions::default(), 0, &|| false).unwrap_err();
+    let error = unfold(
+        &[Vec3::x(); 7],
+        &UnfoldOptions::default(),
+        0,
+        &Job::unlimited(),
+    )
+    .unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Geometry);
 }
 
 #[test]
 fn the_work_can_be_stopped() {
     for options in [UnfoldOptions::default(), annealing()] {
-        let error = unfold(&trefoil(50), &options, 0, &|| true).unwrap_err();
+        let error = unfold(&trefoil(50), &options, 0, &Job::new(&|| true)).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Cancelled);
     }
 }
@@ -214,11 +228,11 @@ fn seed_and_curve_decide_every_bit() {
             restarts: Some(2),
             ..UnfoldOptions::default()
         };
-        let run = |seed| unfold(&curve, &options, seed, &|| false);
+        let run = |seed| unfold(&curve, &options, seed, &Job::unlimited());
         assert_eq!(run(7), run(7));
         // Powers of two scale without rounding.
         let scaled: Vec<Vec3> = curve.iter().map(|p| p * 1024.0).collect();
-        assert_eq!(run(7), unfold(&scaled, &options, 7, &|| false));
+        assert_eq!(run(7), unfold(&scaled, &options, 7, &Job::unlimited()));
     }
 }
 
@@ -272,7 +286,7 @@ fn badly_tangled_unknots_are_unfolded() {
             &tangle(200, 100, seed),
             &UnfoldOptions::default(),
             0,
-            &|| false,
+            &Job::unlimited(),
         );
         assert!((unfolding.unwrap().winding.abs() - 1.0).abs() < 1e-9);
     }

@@ -76,7 +76,8 @@ impl<'a> Job<'a> {
     }
 }
 
-/// Work that nothing stops, for those who keep a reference.
+/// Work that nothing stops, for tests that keep a reference.
+#[cfg(test)]
 pub(crate) static UNLIMITED: Job<'static> = Job::unlimited();
 
 impl Job<'_> {
@@ -173,7 +174,9 @@ mod tests {
             let work = || while job.tick(1).is_ok() {};
             let threads = [scope.spawn(work), scope.spawn(work)];
             flag.store(true, Relaxed);
-            threads.map(|thread| thread.join().unwrap());
+            for thread in threads {
+                thread.join().unwrap();
+            }
         });
         assert!(job.tick(0).is_err());
     }

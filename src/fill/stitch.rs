@@ -9,7 +9,7 @@ use super::plan::{Failure, Plan, Planner, chain};
 use super::report::{Attempt, HoleReport, HoleStatus, Prediction};
 use super::verify::check_against_mesh;
 use crate::error::{Error, ErrorKind};
-use crate::job::{Job, UNLIMITED};
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::math::aabb::Aabb;
 use crate::math::box_tree::BoxTree;
@@ -24,7 +24,7 @@ const UNSTOPPED: &str = "nothing stops it";
 
 /// Pairs of a triangle of the patch and one of `part` that intersect.
 fn intersections(part: Surface<'_>, faces: &FaceIndex, patch: AppendedPatch<'_>) -> usize {
-    let found = count(part, faces, patch, &UNLIMITED);
+    let found = count(part, faces, patch, &Job::unlimited());
     found.expect(UNSTOPPED).with_mesh
 }
 
@@ -75,11 +75,12 @@ impl<'a> Stitcher<'a> {
     ) -> Self {
         let appended = planned_at..mesh.triangles().len();
         let since = (!appended.is_empty()).then(|| {
-            let tree = FaceIndex::build(part(mesh, appended.clone()), &UNLIMITED).expect(UNSTOPPED);
+            let tree =
+                FaceIndex::build(part(mesh, appended.clone()), &Job::unlimited()).expect(UNSTOPPED);
             (appended, tree)
         });
         let box_of = |i: usize| plans[i].map_or_else(Aabb::empty, |plan| plan_box(mesh, plan));
-        let boxes = BoxTree::build(plans.len(), box_of, &UNLIMITED).expect(UNSTOPPED);
+        let boxes = BoxTree::build(plans.len(), box_of, &Job::unlimited()).expect(UNSTOPPED);
         let stitched = vec![0..0; plans.len()];
         Self {
             mesh,
@@ -242,7 +243,7 @@ impl<'a> Stitcher<'a> {
             .filter(|range| !range.is_empty())
             .map(|range| {
                 let other = part(self.mesh, range);
-                let faces = FaceIndex::build(other, &UNLIMITED).expect(UNSTOPPED);
+                let faces = FaceIndex::build(other, &Job::unlimited()).expect(UNSTOPPED);
                 intersections(other, &faces, patch)
             })
             .sum()

@@ -55,7 +55,7 @@ mod tests {
     use std::time::Instant;
 
     #[test]
-    fn the_result_comes_back_and_an_interrupt_does_not_wait_for_it() {
+    fn the_result_comes_back_and_a_stop_does_not_wait_for_it() {
         assert_eq!(run_in_background(&Job::unlimited(), |_| 7).unwrap(), 7);
         let (sender, receiver) = mpsc::channel();
         let start = Instant::now();

@@ -18,8 +18,6 @@ use rayon::prelude::*;
 const FANOUT: usize = 8;
 /// Boxes below which work is not worth sending to another thread.
 const GRAIN: usize = 4096;
-/// Keys that are moved in the time that a tick stands for.
-const KEYS_PER_TICK: usize = 8;
 /// Boxes are sorted within at most `8 ^ 5` cells of space.
 const MOST_CELL_LEVELS: u32 = 5;
 
@@ -378,7 +376,7 @@ fn sorted(mut keys: Vec<u64>, bits: u32, job: &Job<'_>) -> Result<Vec<u64>> {
     let cell = |key: u64| (key >> (bits - cell_bits)) as usize;
     let mut ends = vec![0_usize; 1 << cell_bits];
     for keys in keys.chunks(GRAIN) {
-        job.tick(GRAIN / KEYS_PER_TICK)?;
+        job.tick(GRAIN / 8)?;
         for &key in keys {
             ends[cell(key)] += 1;
         }
@@ -389,7 +387,7 @@ fn sorted(mut keys: Vec<u64>, bits: u32, job: &Job<'_>) -> Result<Vec<u64>> {
     }
     let mut sorted = vec![0; keys.len()];
     for keys in keys.chunks(GRAIN) {
-        job.tick(GRAIN / KEYS_PER_TICK)?;
+        job.tick(GRAIN / 8)?;
         for &key in keys {
             let place = &mut ends[cell(key)];
             sorted[*place] = key;

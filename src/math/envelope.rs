@@ -14,9 +14,6 @@ use super::sparse::SymmetricMatrix;
 use crate::error::Result;
 use crate::job::Job;
 
-/// Multiplications in the time that a tick stands for.
-const PRODUCTS_PER_TICK: usize = 32;
-
 /// An order of the unknowns that keeps rows short, and where the rows then start.
 pub(super) struct Envelope {
     /// The unknown at each place.
@@ -204,7 +201,7 @@ impl Rows<'_> {
             let (above, row) = self.values.split_at_mut(self.starts[i]);
             let first = self.first[i] as usize;
             let width = i - first;
-            job.tick(width * width / PRODUCTS_PER_TICK)?;
+            job.tick(width * width / 32)?;
             for k in 0..width {
                 let j = first + k;
                 let other = &above[self.starts[j]..self.starts[j + 1]];
@@ -319,7 +316,7 @@ mod tests {
     }
 
     #[test]
-    fn an_interrupt_is_heard() {
+    fn a_stop_is_heard() {
         let entries: Vec<_> = (0..400)
             .flat_map(|i| (0..i).map(move |j| (i, j, 0.1)))
             .collect();

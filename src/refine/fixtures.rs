@@ -4,6 +4,7 @@ use super::connectivity::Connectivity;
 use super::density::{grading, rim_sizes};
 use super::flip::Blocked;
 use super::isotropic::{RefineOptions, RefineReport, refine};
+use crate::job::UNLIMITED;
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
 use std::f64::consts::TAU;
@@ -96,7 +97,7 @@ pub(super) fn refined_with(
 pub(super) fn refined(surface: &PatchSurface) -> (PatchSurface, Vec<f64>) {
     let options = RefineOptions {
         grading: grading(surface.rim_count),
-        ..RefineOptions::default()
+        ..RefineOptions::new(&UNLIMITED)
     };
     let (out, sizes, _) = refined_with(surface, &options, &|_, _| false);
     (out, sizes)

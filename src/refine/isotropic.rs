@@ -21,7 +21,7 @@ use super::flip::{Blocked, Flipper};
 use super::locality::renumber;
 use super::relax::relax;
 use crate::error::{Error, ErrorKind, Result};
-use crate::job::{Job, UNLIMITED};
+use crate::job::Job;
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
 use std::cmp::Reverse;
@@ -78,8 +78,8 @@ pub(crate) struct RefineOptions<'a> {
     pub(crate) job: &'a Job<'a>,
 }
 
-impl Default for RefineOptions<'_> {
-    fn default() -> Self {
+impl<'a> RefineOptions<'a> {
+    pub(crate) fn new(job: &'a Job<'a>) -> Self {
         Self {
             split_factor: 1.4,
             chord_factor: 1.25,
@@ -87,7 +87,7 @@ impl Default for RefineOptions<'_> {
             pass_relaxations: 2,
             final_relaxations: 3,
             max_vertices: 10_000_000,
-            job: &UNLIMITED,
+            job,
         }
     }
 }
@@ -443,6 +443,7 @@ mod tests {
     };
     use super::super::flip::count_violations;
     use super::*;
+    use crate::job::UNLIMITED;
 
     fn smallest_angles_deg(surface: &PatchSurface) -> Vec<f64> {
         let mut angles: Vec<f64> = surface
@@ -560,7 +561,7 @@ mod tests {
             let surface = fan_patch(disc_rim(m));
             assert_eq!(refined(&surface).0.triangles.len(), m - 2);
             let mut fine = surface.clone();
-            let options = RefineOptions::default();
+            let options = RefineOptions::new(&UNLIMITED);
             refine(&mut fine, &mut vec![0.3; m], &options, &|_, _| false).unwrap();
             // A triangle alone has no interior edge to split.
             assert_eq!(fine.points.len() > m, m > 3);
@@ -586,7 +587,7 @@ mod tests {
         refine(
             &mut out,
             &mut vec![1.0; 120],
-            &RefineOptions::default(),
+            &RefineOptions::new(&UNLIMITED),
             &|_, _| false,
         )
         .unwrap();
@@ -600,7 +601,7 @@ mod tests {
         assert!(chords.is_empty(), "{chords:?}");
         let loose = RefineOptions {
             chord_factor: 1.4,
-            ..RefineOptions::default()
+            ..RefineOptions::new(&UNLIMITED)
         };
         let mut kept = surface.clone();
         refine(&mut kept, &mut vec![1.0; 120], &loose, &|_, _| false).unwrap();
@@ -622,9 +623,12 @@ mod tests {
             triangles: (1..m as u32 - 1).map(|i| [0, i, i + 1]).collect(),
         };
         let (mut out, mut sizes) = (surface.clone(), vec![1.0; m]);
-        refine(&mut out, &mut sizes, &RefineOptions::default(), &|_, _| {
-            false
-        })
+        refine(
+            &mut out,
+            &mut sizes,
+            &RefineOptions::new(&UNLIMITED),
+            &|_, _| false,
+        )
         .unwrap();
         check_invariants(&surface, &out, &sizes);
         assert!(out.triangles.len() < 20, "{}", out.triangles.len());
@@ -636,7 +640,7 @@ mod tests {
         let count = out.triangles.len();
         let options = RefineOptions {
             final_relaxations: 1,
-            ..RefineOptions::default()
+            ..RefineOptions::new(&UNLIMITED)
         };
         for _ in 0..5 {
             let before = out.clone();
@@ -659,7 +663,7 @@ mod tests {
             p.z = (radius * radius - p.xy().norm_squared()).max(0.0).sqrt();
         }
         let flat = out.clone();
-        let options = RefineOptions::default();
+        let options = RefineOptions::new(&UNLIMITED);
         let report = refine(&mut out, &mut sizes, &options, &|_, _| false).unwrap();
         check_invariants(&flat, &out, &sizes);
         assert!(report.splits + report.flips > 0);

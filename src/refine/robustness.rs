@@ -7,6 +7,7 @@ use super::fixtures::{
 use super::flip::count_violations;
 use super::isotropic::{RefineOptions, refine};
 use crate::error::ErrorKind;
+use crate::job::UNLIMITED;
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
 use proptest::prelude::*;
@@ -18,7 +19,7 @@ fn a_limit_leaves_the_patch_as_it_was() {
     let (mut out, mut sizes) = (surface.clone(), vec![1.0; 50]);
     let options = RefineOptions {
         max_vertices: 100,
-        ..RefineOptions::default()
+        ..RefineOptions::new(&UNLIMITED)
     };
     let error = refine(&mut out, &mut sizes, &options, &|_, _| false).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Limit);
@@ -27,7 +28,7 @@ fn a_limit_leaves_the_patch_as_it_was() {
     let (mut out, mut sizes) = (surface, vec![1e-9; 50]);
     let options = RefineOptions {
         max_vertices: 5000,
-        ..RefineOptions::default()
+        ..RefineOptions::new(&UNLIMITED)
     };
     let error = refine(&mut out, &mut sizes, &options, &|_, _| false).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Limit);
@@ -37,7 +38,7 @@ fn a_limit_leaves_the_patch_as_it_was() {
 fn unusable_input_is_an_error() {
     let surface = fan_patch(disc_rim(8));
     let run = |surface: &PatchSurface, sizes: &[f64]| {
-        let options = RefineOptions::default();
+        let options = RefineOptions::new(&UNLIMITED);
         refine(
             &mut surface.clone(),
             &mut sizes.to_vec(),
@@ -127,7 +128,7 @@ fn blocked_chords_never_appear() {
         .collect();
     let surface = fan_patch(rim);
     let blocked = |a: u32, b: u32| a != 0 && b != 0;
-    let (out, _, _) = refined_with(&surface, &RefineOptions::default(), &blocked);
+    let (out, _, _) = refined_with(&surface, &RefineOptions::new(&UNLIMITED), &blocked);
     let (old, new) = (connect(&surface), connect(&out));
     for a in 0..n as u32 {
         for b in 0..a {
@@ -160,7 +161,7 @@ proptest! {
         let surface = fan_patch(rim);
         prop_assume!(rim_sizes(&surface, &[]).is_ok());
         let options =
-            RefineOptions { grading, max_vertices: 20_000, ..RefineOptions::default() };
+            RefineOptions { grading, max_vertices: 20_000, ..RefineOptions::new(&UNLIMITED) };
         let mut sizes = rim_sizes(&surface, &[]).unwrap();
         let mut out = surface.clone();
         let blocked = |a: u32, b: u32| blocks.rotate_left(a * b + a + b) & 3 == 0;

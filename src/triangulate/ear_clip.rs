@@ -244,7 +244,7 @@ mod tests {
             target,
             &Job::unlimited(),
         )
-        .expect("not job")
+        .expect("nothing stops it")
     }
 
     /// The ears and the rest closed by a fan, where the rest is a triangle.
@@ -354,7 +354,7 @@ mod tests {
     }
 
     #[test]
-    fn an_interrupt_is_heard() {
+    fn a_stop_is_heard() {
         let rim = Rim::regular(10_000);
         let polygon = rim.polygon();
         let stopped = clip(&polygon, &ChordRules::new(&polygon), 3, &Job::new(&|| true));

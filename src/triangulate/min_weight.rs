@@ -24,8 +24,6 @@ use std::collections::BTreeSet;
 
 /// Largest polygon that is searched: 90 MB of tables and a few seconds.
 pub(crate) const MAX_SEARCHED: usize = 2048;
-/// Candidates for a triangle, two of them, that are looked at in the time that a tick stands for.
-const CANDIDATES_PER_TICK: usize = 20;
 /// Searches that may be spent on telling apart chords that join the same two vertices.
 const MAX_SEARCHES: usize = 64;
 /// Normal where no triangle is known. Every comparison with an angle to it is false.
@@ -165,7 +163,7 @@ fn solve(
     };
     let mut any_barred = false;
     for j in 1..len {
-        job.tick(j * j / CANDIDATES_PER_TICK)?;
+        job.tick(j * j / 20)?;
         for i in (0..j).rev() {
             let row = table.cell(i, i + 1);
             let closing = i == 0 && j + 1 == len;
@@ -521,7 +519,7 @@ mod tests {
     }
 
     #[test]
-    fn too_large_a_polygon_is_refused_and_an_interrupt_is_heard() {
+    fn too_large_a_polygon_is_refused_and_a_stop_is_heard() {
         let kind = |rim: Rim, stop: bool| {
             let stop = || stop;
             search(&rim.polygon(), &Job::new(&stop))

@@ -12,7 +12,7 @@ pub(crate) mod unfold;
 pub(crate) use polygon::{HolePolygon, Weight, weight_of};
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::job::{Job, UNLIMITED};
+use crate::job::Job;
 use crate::math::Vec3;
 use ear_clip::Clipped;
 use polygon::ChordRules;
@@ -29,12 +29,13 @@ pub(crate) struct TriangulationOptions<'a> {
     pub(crate) job: &'a Job<'a>,
 }
 
+#[cfg(test)]
 impl Default for TriangulationOptions<'_> {
     fn default() -> Self {
         Self {
             exact_limit: 150,
             ear_remainder: 64,
-            job: &UNLIMITED,
+            job: &crate::job::UNLIMITED,
         }
     }
 }

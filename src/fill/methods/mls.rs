@@ -30,8 +30,7 @@ pub(crate) fn patch(
         pass_relaxations: 0,
         final_relaxations: 0,
         max_vertices: surface.points.len(),
-        job,
-        ..RefineOptions::default()
+        ..RefineOptions::new(job)
     };
     let mut sizes = vec![UNSPLIT; surface.points.len()];
     refine(&mut surface, &mut sizes, &flips_only, &|a, b| {

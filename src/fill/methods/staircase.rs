@@ -169,8 +169,7 @@ impl<'a> Staircase<'a> {
             max_vertices: surface
                 .rim_count
                 .saturating_add(self.options.max_new_vertices),
-            job: self.job,
-            ..RefineOptions::default()
+            ..RefineOptions::new(self.job)
         };
         refine(surface, sizes, &options, &|a, b| self.hole.is_joined(a, b))?;
         Ok(())

@@ -153,9 +153,8 @@ impl<'a> Unfold<'a> {
             grading: self.options.grading.unwrap_or_else(|| grading(rim_count)),
             pass_relaxations: 1,
             final_relaxations: RELAXATIONS,
-            job: self.job,
             max_vertices: rim_count.saturating_add(self.options.max_new_vertices),
-            ..RefineOptions::default()
+            ..RefineOptions::new(self.job)
         };
         let report = refine(surface, sizes, &options, &|a, b| self.hole.is_joined(a, b))?;
         Ok(report.splits > 0)

@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn too_many_samples_and_an_interruption_are_errors() {
+    fn too_many_samples_and_a_stop_are_errors() {
         let loops = [circle(1.0, 60, 1.0)];
         for step in [0.01, 1e-12] {
             let error = resampling_positions(&loops, step, 100, &Job::unlimited()).unwrap_err();

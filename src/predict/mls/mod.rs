@@ -30,8 +30,6 @@ const FOLDED_SHARE: f64 = 0.02;
 const LEAST_PROJECTED_SHARE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Products of vicinity points and samples that are computed, about half a minute's work.
 const MOST_PRODUCTS: usize = 1 << 30;
-/// Products of a weight and a monomial that are computed in the time that a tick stands for.
-const PRODUCTS_PER_TICK: usize = 4;
 /// Times that chords are cut that the mesh has as edges already; each time there are fewer.
 const CHORD_ROUNDS: usize = 4;
 /// Over the hole's radius: the length in which distances count, [`MlsUnit::Radius`].
@@ -264,7 +262,7 @@ impl<'a> HeightField<'a> {
         let mut result = vec![Vec::with_capacity(places.len()); channels.len()];
         let mut values = vec![0.0; channels.len()];
         for &place in places {
-            job.tick(count / PRODUCTS_PER_TICK)?;
+            job.tick(count / 4)?;
             if !evaluator.evaluate(place, &mut values) {
                 let message = "the weighted least squares have no solution at a sample";
                 return Err(Error::new(ErrorKind::Solver, message));

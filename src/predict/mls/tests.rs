@@ -150,7 +150,7 @@ fn other_values_are_extended_like_the_heights() {
 }
 
 #[test]
-fn limits_and_interruptions_are_errors() {
+fn limits_and_stops_are_errors() {
     let hole = hole_in_grid(|u, v| Vec3::new(u, v, 0.0), 12, 0.5);
     let options = MlsOptions::default();
     let field = HeightField::new(&hole, &hole.surroundings, &options, &Job::unlimited()).unwrap();

@@ -33,9 +33,6 @@ const MOST_SMOOTHING_RINGS: f64 = RINGS as f64;
 /// The noise is read from rings up to this one: further out fits would miss neighbours.
 const LAST_NOISE_LEVEL: u32 = 7;
 
-/// Distances between points that are measured in the time that a tick stands for.
-const POINTS_PER_TICK: usize = 8;
-
 /// The known surface round a hole, read on demand.
 pub(crate) struct SampledBand<'a> {
     pub(crate) band: Band,
@@ -176,7 +173,7 @@ impl<'a> SampledBand<'a> {
         let mut next = farthest(&reach);
         reach.fill(f64::INFINITY);
         while chosen.len() < most {
-            self.job.tick(points.len() / POINTS_PER_TICK)?;
+            self.job.tick(points.len() / 8)?;
             let at = points[next];
             chosen.push(vertices[next]);
             for (distance, p) in reach.iter_mut().zip(&points) {

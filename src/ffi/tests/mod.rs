@@ -6,9 +6,9 @@ mod cost;
 #[cfg(unix)]
 mod latency;
 mod misuse;
-mod nulls;
 mod points;
 mod reach;
+mod refusals;
 mod sessions;
 mod threads;
 
@@ -69,20 +69,8 @@ fn holed_mesh() -> Owned {
     mesh_of(&holed())
 }
 
-/// What `auto` says of a hole over an edge of a cube.
-fn report_of_creased() -> HolefillReport {
-    let whole = fixtures::cube(12);
-    let mesh = mesh_of(&whole.cut(|[x, y, z]| (x - 1.0).hypot(y - 1.0).hypot(z) < 0.5));
-    let options = with_method(c"auto");
-    let mut report = HolefillReport::default();
-    // SAFETY: all pointers are null or to living values.
-    let status = unsafe { holefill_mesh_fill_loop(mesh.0, 0, &options, &mut report, nothing()) };
-    assert_eq!(status, HOLEFILL_STATUS_OK);
-    report
-}
-
 fn info(mesh: HolefillMesh) -> HolefillMeshInfo {
-    let mut info = memory::blank::<HolefillMeshInfo>();
+    let mut info = structs::blank::<HolefillMeshInfo>();
     // SAFETY: the pointer is to a living value.
     let status = unsafe { holefill_mesh_info(mesh, &mut info, nothing()) };
     assert_eq!(status, HOLEFILL_STATUS_OK);
@@ -116,7 +104,7 @@ fn loop_count(mesh: HolefillMesh) -> u64 {
 }
 
 fn loop_info(mesh: HolefillMesh, id: u64) -> HolefillLoopInfo {
-    let mut info = memory::blank::<HolefillLoopInfo>();
+    let mut info = structs::blank::<HolefillLoopInfo>();
     // SAFETY: the pointer is to a living value.
     let status = unsafe { holefill_mesh_loop_info(mesh, id, &mut info, nothing()) };
     assert_eq!(status, HOLEFILL_STATUS_OK);
@@ -151,7 +139,7 @@ fn digest(mesh: HolefillMesh) -> u64 {
         // SAFETY: the pointer is to a living value.
         unsafe { holefill_mesh_attribute_count(mesh, element, &mut count, nothing()) };
         for index in 0..count {
-            let mut info = memory::blank::<HolefillAttributeInfo>();
+            let mut info = structs::blank::<HolefillAttributeInfo>();
             // SAFETY: the pointer is to a living value.
             unsafe { holefill_mesh_attribute_info(mesh, element, index, &mut info, nothing()) };
             let mut values = vec![0.0_f64; (info.count * u64::from(info.components)) as usize];
@@ -207,7 +195,7 @@ fn message(error: HolefillError) -> String {
 }
 
 fn options() -> HolefillFillOptions {
-    let mut options = memory::blank::<HolefillFillOptions>();
+    let mut options = structs::blank::<HolefillFillOptions>();
     options.threads = 1;
     options
 }
@@ -219,14 +207,101 @@ fn with_method(method: &'static CStr) -> HolefillFillOptions {
     }
 }
 
-fn fill_loop(mesh: HolefillMesh, id: u64, options: &HolefillFillOptions) -> HolefillStatus {
+/// A target of this kind, and nothing else.
+fn target(kind: HolefillTargetKind) -> HolefillTarget {
+    HolefillTarget {
+        kind,
+        ..structs::blank()
+    }
+}
+
+fn at_loop(loop_id: u64) -> HolefillTarget {
+    HolefillTarget {
+        loop_id,
+        ..target(HOLEFILL_TARGET_LOOP)
+    }
+}
+
+fn at_edge(edge: [u64; 2]) -> HolefillTarget {
+    HolefillTarget {
+        edge,
+        ..target(HOLEFILL_TARGET_EDGE)
+    }
+}
+
+/// Loops or vertices by their numbers.
+fn at_ids(kind: HolefillTargetKind, ids: &HolefillInput) -> HolefillTarget {
+    HolefillTarget {
+        ids,
+        ..target(kind)
+    }
+}
+
+fn selected(selection: &HolefillSelection) -> HolefillTarget {
+    HolefillTarget {
+        selection,
+        ..target(HOLEFILL_TARGET_SELECTED)
+    }
+}
+
+fn every_loop() -> HolefillTarget {
+    target(HOLEFILL_TARGET_SELECTED)
+}
+
+fn fill(
+    mesh: HolefillMesh,
+    target: &HolefillTarget,
+    options: &HolefillFillOptions,
+) -> HolefillStatus {
     // SAFETY: all pointers are null or to living values.
-    unsafe { holefill_mesh_fill_loop(mesh, id, options, ptr::null_mut(), nothing()) }
+    unsafe { holefill_mesh_fill(mesh, target, options, ptr::null_mut(), nothing()) }
+}
+
+fn fill_loop(mesh: HolefillMesh, id: u64, options: &HolefillFillOptions) -> HolefillStatus {
+    fill(mesh, &at_loop(id), options)
 }
 
 fn fill_all(mesh: HolefillMesh, options: &HolefillFillOptions) -> HolefillStatus {
+    fill(mesh, &every_loop(), options)
+}
+
+/// Fills, and returns the report too.
+fn report_of(
+    mesh: HolefillMesh,
+    target: &HolefillTarget,
+    options: &HolefillFillOptions,
+) -> (HolefillStatus, HolefillReport) {
+    let mut report = HolefillReport::default();
     // SAFETY: all pointers are null or to living values.
-    unsafe { holefill_mesh_fill_selected(mesh, ptr::null(), options, ptr::null_mut(), nothing()) }
+    let status = unsafe { holefill_mesh_fill(mesh, target, options, &mut report, nothing()) };
+    (status, report)
+}
+
+fn hole(report: HolefillReport, index: u64) -> HolefillHole {
+    let mut hole = structs::blank::<HolefillHole>();
+    // SAFETY: the pointer is to a living value.
+    let status = unsafe { holefill_report_hole(report, index, &mut hole, nothing()) };
+    assert_eq!(status, HOLEFILL_STATUS_OK);
+    hole
+}
+
+fn reason(report: HolefillReport, index: u64) -> String {
+    // SAFETY: `text` gives room as it says.
+    text(&|buffer, capacity, length| unsafe {
+        holefill_report_reason(report, index, buffer, capacity, length, nothing())
+    })
+}
+
+/// Makes a set of parameters with one of them set.
+fn parameters(name: &CStr, value: &CStr) -> HolefillParameters {
+    let mut made = HolefillParameters::default();
+    // SAFETY: all pointers are null or to living values.
+    unsafe {
+        holefill_parameters_new(&mut made, nothing());
+        let status = holefill_parameters_set(made, name.as_ptr(), value.as_ptr(), nothing());
+        assert_eq!(status, HOLEFILL_STATUS_OK);
+    }
+    made
 }
 
 fn undo(mesh: HolefillMesh) -> HolefillStatus {
@@ -237,7 +312,7 @@ fn undo(mesh: HolefillMesh) -> HolefillStatus {
 fn plan_loop(mesh: HolefillMesh, id: u64, options: &HolefillFillOptions) -> HolefillPlan {
     let mut plan = HolefillPlan::default();
     // SAFETY: all pointers are null or to living values.
-    let status = unsafe { holefill_mesh_plan_loop(mesh, id, options, &mut plan, nothing()) };
+    let status = unsafe { holefill_mesh_plan(mesh, &at_loop(id), options, &mut plan, nothing()) };
     assert_eq!(status, HOLEFILL_STATUS_OK);
     plan
 }
@@ -249,7 +324,7 @@ fn apply(plan: HolefillPlan, mesh: HolefillMesh) -> HolefillStatus {
 
 /// New vertices and triangles of the patch for a loop.
 fn patch(plan: HolefillPlan, id: u64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
-    let mut info = memory::blank::<HolefillPatchInfo>();
+    let mut info = structs::blank::<HolefillPatchInfo>();
     // SAFETY: the pointer is to a living value.
     let status = unsafe { holefill_plan_patch(plan, id, &mut info, nothing()) };
     assert_eq!(status, HOLEFILL_STATUS_OK);

@@ -41,8 +41,11 @@ fn declared() -> Vec<(String, Vec<String>)> {
         let checked = |argument: &str| match argument.rsplit_once('*') {
             Some((_, name)) => Some(name.trim().trim_end_matches(')').to_owned()),
             None => {
-                let kind = argument.split_whitespace().next()?;
-                HANDLES.iter().any(|h| h.0 == kind).then(|| kind.to_owned())
+                let is_handle = |word: &&str| HANDLES.iter().any(|h| h.0 == *word);
+                argument
+                    .split_whitespace()
+                    .find(is_handle)
+                    .map(str::to_owned)
             }
         };
         functions.push((
@@ -487,27 +490,19 @@ const PLACES: [Place; 9] = [
     Place::Output,
 ];
 
-/// Makes a call with one view spoiled by `spoil`.
-fn spoiled(place: Place, spoil: &dyn Fn(&mut HolefillInput)) -> HolefillStatus {
-    let points = [
-        [0.0_f64, 0.0, 0.0],
-        [1.0, 0.0, 0.0],
-        [0.0, 1.0, 0.0],
-        [0.3, 0.3, 0.1],
-    ];
-    let mut room = points;
+/// Makes a call on `arrays` with one view spoiled by `spoil`.
+fn spoiled(arrays: &Arrays, place: Place, spoil: &dyn Fn(&mut HolefillInput)) -> HolefillStatus {
+    let points = &arrays.positions;
+    let mut room = points.clone();
     let change = |is_it: bool, mut view: HolefillInput| {
         if is_it {
             spoil(&mut view);
         }
         view
     };
-    let view = |wanted: Place| change(place == wanted, rows(&points, HOLEFILL_TYPE_F64));
-    let faces = [[0_u32, 1, 2]];
-    let triangles = rows(&faces, HOLEFILL_TYPE_U32);
+    let view = |wanted: Place| change(place == wanted, rows(points, HOLEFILL_TYPE_F64));
+    let triangles = rows(&arrays.triangles, HOLEFILL_TYPE_U32);
     let triangles = change(place == Place::Triangles, triangles);
-    let chain = rows(&[0_u32, 1, 2], HOLEFILL_TYPE_U32);
-    let chain = change(place == Place::Vertices, chain);
     let (mut mesh, mut count) = (HolefillMesh { id: 77 }, 0);
     // SAFETY: what the views say is checked before it is read, and the first rows are there.
     let status = unsafe {
@@ -531,12 +526,16 @@ fn spoiled(place: Place, spoil: &dyn Fn(&mut HolefillInput)) -> HolefillStatus {
                 nothing(),
             ),
             Place::Vertices | Place::Output => {
-                let owned = mesh_of(&Arrays {
-                    positions: points.to_vec(),
-                    triangles: faces.to_vec(),
-                });
+                let owned = mesh_of(arrays);
                 if place == Place::Vertices {
-                    let no = ptr::null_mut();
+                    let chain: Vec<u32> = loop_vertices(owned.0, 0)
+                        .iter()
+                        .map(|&v| v as u32)
+                        .collect();
+                    let (chain, no) = (
+                        change(true, rows(&chain, HOLEFILL_TYPE_U32)),
+                        ptr::null_mut(),
+                    );
                     return holefill_mesh_find_vertices(
                         owned.0,
                         &chain,
@@ -571,9 +570,10 @@ fn spoiled(place: Place, spoil: &dyn Fn(&mut HolefillInput)) -> HolefillStatus {
 #[test]
 fn rows_that_cannot_be_are_refused_in_every_place() {
     use HOLEFILL_STATUS_INVALID_ARGUMENT as INVALID;
+    let arrays = fixtures::sphere(4).cut(|c| c[2] > 0.75);
     for place in PLACES {
         let check = |expected: HolefillStatus, spoil: &dyn Fn(&mut HolefillInput)| {
-            assert_eq!(spoiled(place, spoil), expected, "{place:?}");
+            assert_eq!(spoiled(&arrays, place, spoil), expected, "{place:?}");
         };
         let takes_indices = [Place::Triangles, Place::Vertices].contains(&place);
         check(OK, &|_| {});
@@ -616,10 +616,10 @@ fn rows_that_cannot_be_are_refused_in_every_place() {
     }
     // Nothing at all needs no place.
     let empty = |v: &mut HolefillInput| (v.data, v.count) = (ptr::null(), 0);
-    assert_eq!(spoiled(Place::Output, &empty), OK);
-    assert_eq!(spoiled(Place::Triangles, &empty), OK);
+    assert_eq!(spoiled(&arrays, Place::Output, &empty), OK);
+    assert_eq!(spoiled(&arrays, Place::Triangles, &empty), OK);
     assert_eq!(
-        spoiled(Place::Positions, &empty),
+        spoiled(&arrays, Place::Positions, &empty),
         HOLEFILL_STATUS_INDEX_OUT_OF_RANGE
     );
 }
@@ -639,7 +639,11 @@ fn numbers_that_cannot_be_are_refused_with_their_place() {
         holefill_error_free(error);
         (status, text)
     };
-    let good = [[0.0_f64, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let small = Arrays {
+        positions: vec![[0.0_f64, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        triangles: vec![[0, 1, 2]],
+    };
+    let good = [0, 1, 2].map(|i| small.positions[i]);
     let faces = rows(&[[0_u32, 1, 2]], HOLEFILL_TYPE_U32);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let mut points = good;
@@ -659,7 +663,7 @@ fn numbers_that_cannot_be_are_refused_with_their_place() {
                 Place::Points,
                 Place::Normals,
             ] {
-                let status = spoiled(place, &|v| *v = view);
+                let status = spoiled(&small, place, &|v| *v = view);
                 assert_eq!(status, HOLEFILL_STATUS_NOT_FINITE, "{place:?}");
             }
         }

@@ -195,11 +195,25 @@ Result<T> get(T value, Function function) {
     return result(status, error, std::move(value));
 }
 
-/* Nothing, if the status of `function(error)` is a success. */
-template <class Function>
-Result<void> run(Function function) {
+/* What the C function `function(arguments..., &value, error)` writes. */
+template <class T, class Function, class... Arguments>
+Result<T> query(T value, Function function, Arguments... arguments) {
+    return get(std::move(value), [&](T& place, HolefillError* error) { return function(arguments..., &place, error); });
+}
+
+/* The text or list that the C function `function(arguments..., buffer, capacity, &length, error)` writes. */
+template <class List, class Function, class... Arguments>
+HolefillStatus read(List& list, HolefillError* error, Function function, Arguments... arguments) {
+    return read_list(list, [&](auto* buffer, uint64_t capacity, uint64_t* length) {
+        return function(arguments..., buffer, capacity, length, error);
+    });
+}
+
+/* Nothing, if the status of the C function `function(arguments..., error)` is a success. */
+template <class Function, class... Arguments>
+Result<void> run(Function function, Arguments... arguments) {
     ErrorObject error;
-    const HolefillStatus status = function(error.get());
+    const HolefillStatus status = function(arguments..., error.get());
     if (!is_success(status)) {
 #ifndef HOLEFILL_NO_EXCEPTIONS
         throw Exception(error.failure(status));
@@ -513,9 +527,7 @@ public:
     /* Whether every hole that was asked for is closed, or has a patch. */
     bool is_complete() const noexcept { return status_ != HOLEFILL_STATUS_INCOMPLETE; }
     Result<HolefillSummary> summary() const {
-        return detail::get<HolefillSummary>(HOLEFILL_SUMMARY_INIT, [&](auto& summary, auto* error) {
-            return holefill_report_summary(get(), &summary, error);
-        });
+        return detail::query<HolefillSummary>(HOLEFILL_SUMMARY_INIT, holefill_report_summary, get());
     }
     /* Entry `index`, in the order of the loops' ids. */
     Result<Hole> hole(uint64_t index) const {
@@ -536,9 +548,7 @@ public:
     /* Everything, as holefill_report_json says. */
     Result<std::string> json() const {
         return detail::get(std::string(), [&](auto& text, auto* error) {
-            return detail::read_list(text, [&](auto* buffer, auto capacity, auto* length) {
-                return holefill_report_json(get(), buffer, capacity, length, error);
-            });
+            return detail::read(text, error, holefill_report_json, get());
         });
     }
     HolefillReport get() const noexcept { return handle_.get(); }
@@ -547,16 +557,12 @@ private:
     HolefillStatus read_hole(uint64_t index, Hole& hole, HolefillError* error) const {
         HolefillStatus status = holefill_report_hole(get(), index, &hole, error);
         if (status == HOLEFILL_STATUS_OK) {
-            status = detail::read_list(hole.reason, [&](auto* buffer, auto capacity, auto* length) {
-                return holefill_report_reason(get(), index, buffer, capacity, length, error);
-            });
+            status = detail::read(hole.reason, error, holefill_report_reason, get(), index);
         }
         for (uint32_t k = 0; status == HOLEFILL_STATUS_OK && k < hole.tried_count; ++k) {
             Attempt attempt;
             const char* method = nullptr;
-            status = detail::read_list(attempt.reason, [&](auto* buffer, auto capacity, auto* length) {
-                return holefill_report_tried(get(), index, k, &method, buffer, capacity, length, error);
-            });
+            status = detail::read(attempt.reason, error, holefill_report_tried, get(), index, k, &method);
             attempt.method = method ? method : "";
             hole.tried.push_back(std::move(attempt));
         }
@@ -638,15 +644,11 @@ public:
     explicit Mesh(HolefillMesh handle) noexcept : handle_(handle) {}
 
     static Result<Mesh> from_arrays(const Rows<3>& positions, const Rows<3>& triangles) {
-        return make([&](auto* mesh, auto* error) {
-            return holefill_mesh_from_arrays(positions.get(), triangles.get(), mesh, error);
-        });
+        return make(holefill_mesh_from_arrays, positions.get(), triangles.get());
     }
     /* The last point is joined to the first. */
     static Result<Mesh> from_polyline(const Rows<3>& points, const std::optional<Rows<3>>& normals = std::nullopt) {
-        return make([&](auto* mesh, auto* error) {
-            return holefill_mesh_from_polyline(points.get(), normals ? normals->get() : nullptr, mesh, error);
-        });
+        return make(holefill_mesh_from_polyline, points.get(), normals ? normals->get() : nullptr);
     }
 
     /* The points are the vertices. `normals` and `colors` have a row for each point, if they are there. `summary` gets
@@ -681,17 +683,13 @@ public:
     }
 
     Result<HolefillMeshInfo> info() const {
-        return detail::get<HolefillMeshInfo>(HOLEFILL_MESH_INFO_INIT, [&](auto& info, auto* error) {
-            return holefill_mesh_info(get(), &info, error);
-        });
+        return detail::query<HolefillMeshInfo>(HOLEFILL_MESH_INFO_INIT, holefill_mesh_info, get());
     }
     Result<HolefillDefects> defects() const {
-        return detail::get<HolefillDefects>(HOLEFILL_DEFECTS_INIT, [&](auto& defects, auto* error) {
-            return holefill_mesh_defects(get(), &defects, error);
-        });
+        return detail::query<HolefillDefects>(HOLEFILL_DEFECTS_INIT, holefill_mesh_defects, get());
     }
     Result<void> prepare() const {
-        return detail::run([&](auto* error) { return holefill_mesh_prepare(get(), error); });
+        return detail::run(holefill_mesh_prepare, get());
     }
     /* The vertices from `first` on, as float or double. */
     template <class T = double>
@@ -710,9 +708,7 @@ public:
                                const std::vector<T>& values) {
         const HolefillInput input{values.data(), components == 0 ? 0 : values.size() / components, 0,
                                   detail::scalar_type<T>(), 0};
-        return detail::run([&](auto* error) {
-            return holefill_mesh_add_attribute(get(), element, name, components, &input, error);
-        });
+        return detail::run(holefill_mesh_add_attribute, get(), element, name, components, &input);
     }
     Result<std::vector<Attribute>> attributes(HolefillElement element) const {
         return detail::get(std::vector<Attribute>(), [&](auto& attributes, auto* error) {
@@ -722,9 +718,7 @@ public:
                 Attribute attribute{HOLEFILL_ATTRIBUTE_INFO_INIT, {}};
                 status = holefill_mesh_attribute_info(get(), element, i, &attribute, error);
                 if (status == HOLEFILL_STATUS_OK) {
-                    status = detail::read_list(attribute.name, [&](auto* buffer, auto capacity, auto* length) {
-                        return holefill_mesh_attribute_name(get(), element, i, buffer, capacity, length, error);
-                    });
+                    status = detail::read(attribute.name, error, holefill_mesh_attribute_name, get(), element, i);
                 }
                 attributes.push_back(std::move(attribute));
             }
@@ -748,14 +742,10 @@ public:
     }
 
     Result<uint64_t> loop_count() const {
-        return detail::get(uint64_t{0}, [&](auto& count, auto* error) {
-            return holefill_mesh_loop_count(get(), &count, error);
-        });
+        return detail::query(uint64_t{0}, holefill_mesh_loop_count, get());
     }
     Result<HolefillLoopInfo> loop(uint64_t loop_id) const {
-        return detail::get<HolefillLoopInfo>(HOLEFILL_LOOP_INFO_INIT, [&](auto& info, auto* error) {
-            return holefill_mesh_loop_info(get(), loop_id, &info, error);
-        });
+        return detail::query<HolefillLoopInfo>(HOLEFILL_LOOP_INFO_INIT, holefill_mesh_loop_info, get(), loop_id);
     }
     Result<std::vector<HolefillLoopInfo>> loops() const {
         using Loops = std::vector<HolefillLoopInfo>;
@@ -783,19 +773,17 @@ public:
         });
     }
     Result<uint64_t> find_edge(uint64_t from, uint64_t to) const {
-        return detail::get(uint64_t{0}, [&](auto& loop_id, auto* error) {
-            return holefill_mesh_find_edge(get(), from, to, &loop_id, error);
-        });
+        return detail::query(uint64_t{0}, holefill_mesh_find_edge, get(), from, to);
     }
     Result<std::vector<uint64_t>> find_vertices(const Rows<1>& vertices) const {
-        return read_ids([&](auto* ids, auto capacity, auto* count, auto* error) {
-            return holefill_mesh_find_vertices(get(), vertices.get(), ids, capacity, count, error);
+        return detail::get(std::vector<uint64_t>(), [&](auto& ids, auto* error) {
+            return detail::read(ids, error, holefill_mesh_find_vertices, get(), vertices.get());
         });
     }
     Result<std::vector<uint64_t>> select(const Selection& selection) const {
         const HolefillSelection raw = selection.raw();
-        return read_ids([&](auto* ids, auto capacity, auto* count, auto* error) {
-            return holefill_mesh_select(get(), &raw, ids, capacity, count, error);
+        return detail::get(std::vector<uint64_t>(), [&](auto& ids, auto* error) {
+            return detail::read(ids, error, holefill_mesh_select, get(), &raw);
         });
     }
 
@@ -807,7 +795,7 @@ public:
     }
     Result<Report> fill(const Options& options = {}) { return fill(Target(), options); }
     Result<void> undo() {
-        return detail::run([&](auto* error) { return holefill_mesh_undo(get(), error); });
+        return detail::run(holefill_mesh_undo, get());
     }
 
     /* Makes patches and leaves the mesh as it is. */
@@ -841,19 +829,11 @@ private:
             return status;
         });
     }
-    template <class Read>
-    static Result<std::vector<uint64_t>> read_ids(Read read) {
-        return detail::get(std::vector<uint64_t>(), [&](auto& found, auto* error) {
-            return detail::read_list(found, [&](auto* ids, auto capacity, auto* count) {
-                return read(ids, capacity, count, error);
-            });
-        });
-    }
     template <class Function>
-    static Result<Mesh> make(Function function) {
+    static Result<Mesh> make(Function function, const HolefillInput* a, const HolefillInput* b) {
         return detail::get(Mesh({}), [&](auto& mesh, auto* error) {
             HolefillMesh handle{};
-            const HolefillStatus status = function(&handle, error);
+            const HolefillStatus status = function(a, b, &handle, error);
             mesh = Mesh(handle);
             return status;
         });

@@ -68,7 +68,7 @@ fn arrays_of_every_type_and_stride_make_the_same_mesh() {
         rows(&arrays.triangles, HOLEFILL_TYPE_I32),
     ] {
         let mut mesh = HolefillMesh::default();
-        ok!(holefill_mesh_from_arrays(&points, &faces, &mut mesh));
+        ok!(holefill_mesh_from_arrays: &points, &faces, &mut mesh);
         let mesh = Owned(mesh);
         assert_eq!(digest(mesh.0), digest(expected.0));
     }
@@ -104,7 +104,7 @@ fn outputs_go_where_they_should_and_nowhere_else() {
         scalar_type: HOLEFILL_TYPE_F64,
         reserved: 0,
     };
-    ok!(holefill_mesh_read_positions(mesh.0, 2, &output));
+    ok!(holefill_mesh_read_positions: mesh.0, 2, &output);
     let mut expected = vec![0xAA_u8; 1 + 29 * 5];
     for (i, p) in arrays.positions[2..6].iter().enumerate() {
         let row: Vec<u8> = p.iter().flat_map(|c| c.to_ne_bytes()).collect();
@@ -123,10 +123,10 @@ fn outputs_go_where_they_should_and_nowhere_else() {
         place(&mut wide_signed, HOLEFILL_TYPE_I64),
     ];
     for output in &to_signed {
-        call!(holefill_mesh_read_triangles(mesh.0, 1, output));
+        call!(holefill_mesh_read_triangles: mesh.0, 1, output);
     }
-    call!(holefill_mesh_read_triangles(mesh.0, 1, &to_wide));
-    call!(holefill_mesh_read_positions(mesh.0, 1, &to_single));
+    call!(holefill_mesh_read_triangles: mesh.0, 1, &to_wide);
+    call!(holefill_mesh_read_positions: mesh.0, 1, &to_single);
     assert_eq!(wide[0], arrays.triangles[1].map(u64::from));
     assert_eq!(wide_signed[0], arrays.triangles[1].map(i64::from));
     assert_eq!(signed[1], arrays.triangles[2].map(u32::cast_signed));
@@ -146,7 +146,7 @@ fn a_loop_is_the_same_by_id_by_edge_and_by_vertices() {
         }
         let view = rows(&chain, HOLEFILL_TYPE_U64);
         let mut id = u64::MAX;
-        let status = call!(holefill_mesh_find_edge(mesh.0, from, to, &mut id));
+        let status = call!(holefill_mesh_find_edge: mesh.0, from, to, &mut id);
         assert_eq!((status, id), (HOLEFILL_STATUS_OK, 1));
         let ids = rows(&[1_i64], HOLEFILL_TYPE_I64);
         let target = match way {
@@ -182,22 +182,10 @@ fn a_chain_through_two_loops_that_touch_finds_both() {
     let view = rows(&eight, HOLEFILL_TYPE_U64);
     let mut ids = [u64::MAX; 2];
     let mut count = 0;
-    let status = call!(holefill_mesh_find_vertices(
-        mesh.0,
-        &view,
-        ids.as_mut_ptr(),
-        1,
-        &mut count
-    ));
+    let status = call!(holefill_mesh_find_vertices: mesh.0, &view, ids.as_mut_ptr(), 1, &mut count);
     assert_eq!((status, count), (HOLEFILL_STATUS_BUFFER_TOO_SMALL, 2));
     assert_eq!(ids[0], u64::MAX);
-    ok!(holefill_mesh_find_vertices(
-        mesh.0,
-        &view,
-        ids.as_mut_ptr(),
-        2,
-        &mut count
-    ));
+    ok!(holefill_mesh_find_vertices: mesh.0, &view, ids.as_mut_ptr(), 2, &mut count);
     assert_eq!(ids, [a, b]);
     // Not all of it is not a loop.
     let view = rows(&eight[..eight.len() - 1], HOLEFILL_TYPE_U64);
@@ -237,16 +225,11 @@ fn plans_of_several_loops_number_their_patches_one_after_the_other() {
     let mut plan = HolefillPlan::default();
     let mut report = HolefillReport::default();
     let mut infos = [structs::blank::<HolefillPatchInfo>(); 2];
-    ok!(holefill_mesh_plan(
-        mesh.0,
-        ptr::null(),
-        &options(),
-        &mut plan
-    ));
+    ok!(holefill_mesh_plan: mesh.0, ptr::null(), &options(), &mut plan);
     for id in 0..2 {
-        call!(holefill_plan_patch(plan, id, &mut infos[id as usize]));
+        call!(holefill_plan_patch: plan, id, &mut infos[id as usize]);
     }
-    call!(holefill_plan_report(plan, &mut report));
+    call!(holefill_plan_report: plan, &mut report);
     assert_eq!(infos[0].first_vertex, info(mesh.0).vertex_count);
     assert_eq!(
         infos[1].first_vertex,
@@ -309,7 +292,7 @@ fn a_report_says_what_happened_to_each_hole() {
         size.triangle_count
     );
     let mut summary = structs::blank::<HolefillSummary>();
-    call!(holefill_report_summary(report, &mut summary));
+    call!(holefill_report_summary: report, &mut summary);
     assert_eq!(
         (summary.hole_count, summary.filled, summary.kept),
         (2, 1, 1)
@@ -367,7 +350,7 @@ fn a_report_is_also_one_text_with_what_was_predicted() {
             assert_eq!(told["method"].as_str(), static_text(hole.method));
             assert_eq!(told["new_triangles"], hole.triangle_count);
             let mut found = structs::blank::<HolefillPrediction>();
-            let status = call!(holefill_report_prediction(report, i, &mut found));
+            let status = call!(holefill_report_prediction: report, i, &mut found);
             let told = &told["prediction"];
             if told.is_null() {
                 assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
@@ -436,38 +419,21 @@ fn attributes_go_in_come_out_and_are_continued() {
     let heights: Vec<f32> = arrays.positions.iter().map(|p| p[2] as f32).collect();
     let colors: Vec<[u8; 3]> = (0..vertices).map(|i| [(i % 256) as u8, 10, 200]).collect();
     let labels: Vec<i16> = vec![-7; faces];
+    let (vertex, triangle) = (HOLEFILL_ELEMENT_VERTEX, HOLEFILL_ELEMENT_TRIANGLE);
+    let colors = rows(&colors, HOLEFILL_TYPE_U8);
     for (element, name, components, values) in [
+        (vertex, c"height", 1, rows(&heights, HOLEFILL_TYPE_F32)),
+        (vertex, c"color", 3, colors),
         (
-            HOLEFILL_ELEMENT_VERTEX,
-            c"height",
-            1,
-            rows(&heights, HOLEFILL_TYPE_F32),
-        ),
-        (
-            HOLEFILL_ELEMENT_VERTEX,
-            c"color",
-            3,
-            rows(&colors, HOLEFILL_TYPE_U8),
-        ),
-        (
-            HOLEFILL_ELEMENT_VERTEX,
+            vertex,
             c"place",
             3,
             rows(&arrays.positions, HOLEFILL_TYPE_F64),
         ),
-        (
-            HOLEFILL_ELEMENT_TRIANGLE,
-            c"label",
-            1,
-            rows(&labels, HOLEFILL_TYPE_I16),
-        ),
+        (triangle, c"label", 1, rows(&labels, HOLEFILL_TYPE_I16)),
     ] {
         let name = name.as_ptr();
-        let add = || {
-            call!(holefill_mesh_add_attribute(
-                mesh.0, element, name, components, &values
-            ))
-        };
+        let add = || call!(holefill_mesh_add_attribute: mesh.0, element, name, components, &values);
         assert_eq!(add(), HOLEFILL_STATUS_OK);
         assert_eq!(add(), HOLEFILL_STATUS_INVALID_ARGUMENT);
     }
@@ -478,36 +444,17 @@ fn attributes_go_in_come_out_and_are_continued() {
     let mut new_colors = vec![[0_u8; 3]; size.vertex_count as usize];
     let mut as_numbers = vec![[0_f64; 3]; size.vertex_count as usize];
     let mut places = vec![[0_f64; 3]; size.vertex_count as usize];
-    let read = |element, index, output: &HolefillOutput| {
-        call!(holefill_mesh_read_attribute(
-            mesh.0, element, index, 0, output
-        ))
-    };
-    let labels = place(&mut new_labels, HOLEFILL_TYPE_I16);
-    assert_eq!(
-        read(HOLEFILL_ELEMENT_TRIANGLE, 0, &labels),
-        HOLEFILL_STATUS_OK
-    );
-    let colors = place(&mut new_colors, HOLEFILL_TYPE_U8);
-    assert_eq!(
-        read(HOLEFILL_ELEMENT_VERTEX, 1, &colors),
-        HOLEFILL_STATUS_OK
-    );
-    let numbers = place(&mut as_numbers, HOLEFILL_TYPE_F64);
-    assert_eq!(
-        read(HOLEFILL_ELEMENT_VERTEX, 1, &numbers),
-        HOLEFILL_STATUS_OK
-    );
-    let values = place(&mut places, HOLEFILL_TYPE_F64);
-    assert_eq!(
-        read(HOLEFILL_ELEMENT_VERTEX, 2, &values),
-        HOLEFILL_STATUS_OK
-    );
-    let wrong = place(&mut new_colors, HOLEFILL_TYPE_I8);
-    assert_eq!(
-        read(HOLEFILL_ELEMENT_VERTEX, 1, &wrong),
-        HOLEFILL_STATUS_INVALID_ARGUMENT
-    );
+    let [ok, refused] = [HOLEFILL_STATUS_OK, HOLEFILL_STATUS_INVALID_ARGUMENT];
+    for (element, index, output, expected) in [
+        (triangle, 0, place(&mut new_labels, HOLEFILL_TYPE_I16), ok),
+        (vertex, 1, place(&mut new_colors, HOLEFILL_TYPE_U8), ok),
+        (vertex, 1, place(&mut as_numbers, HOLEFILL_TYPE_F64), ok),
+        (vertex, 2, place(&mut places, HOLEFILL_TYPE_F64), ok),
+        (vertex, 1, place(&mut new_colors, HOLEFILL_TYPE_I8), refused),
+    ] {
+        let status = call!(holefill_mesh_read_attribute: mesh.0, element, index, 0, &output);
+        assert_eq!(status, expected);
+    }
     assert!(new_labels.iter().all(|&l| l == -7));
     assert!(
         new_colors[vertices..]
@@ -560,7 +507,7 @@ fn the_log_speaks_only_when_it_is_asked_and_only_as_loud() {
 fn irregularities_are_counted() {
     let mesh = mesh_of(&fixtures::sheet_with_hole().with_vertex([9.0, 9.0, 9.0]));
     let mut defects = structs::blank::<HolefillDefects>();
-    let status = call!(holefill_mesh_defects(mesh.0, &mut defects));
+    let status = call!(holefill_mesh_defects: mesh.0, &mut defects);
     assert_eq!((status, defects.isolated_vertices), (HOLEFILL_STATUS_OK, 1));
 }
 

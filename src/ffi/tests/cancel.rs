@@ -58,7 +58,7 @@ fn stopping_a_plan_or_an_apply_changes_nothing() {
         ..slow(1)
     };
     let mut plan = HolefillPlan::default();
-    let status = call!(holefill_mesh_plan(mesh.0, &at_loop(0), &options, &mut plan));
+    let status = call!(holefill_mesh_plan: mesh.0, &at_loop(0), &options, &mut plan);
     assert_eq!((status, plan.id), (HOLEFILL_STATUS_CANCELLED, 0));
     assert_eq!(digest(mesh.0), before);
 }

@@ -19,13 +19,7 @@ impl World {
         let mesh = holed_mesh();
         let labels = vec![7_u8; info(mesh.0).vertex_count as usize];
         let values = rows(&labels, HOLEFILL_TYPE_U8);
-        call!(holefill_mesh_add_attribute(
-            mesh.0,
-            1,
-            c"label".as_ptr(),
-            1,
-            &values
-        ));
+        call!(holefill_mesh_add_attribute: mesh.0, 1, c"label".as_ptr(), 1, &values);
         Self {
             report: report_of(mesh.0, &at_loop(0), &with_method(c"auto")).1,
             plan: plan_loop(mesh.0, 1, &with_method(c"flat")),
@@ -59,7 +53,7 @@ impl World {
         options: *const HolefillFillOptions,
     ) -> HolefillStatus {
         let mut plan = HolefillPlan::default();
-        let status = call!(holefill_mesh_plan(self.mesh.0, target, options, &mut plan));
+        let status = call!(holefill_mesh_plan: self.mesh.0, target, options, &mut plan);
         holefill_plan_free(plan);
         status
     }
@@ -78,87 +72,52 @@ type Case = (
     &'static str,
     u32,
     bool,
-    fn(&World, &mut Room) -> HolefillStatus,
+    fn(&World, *mut u64) -> HolefillStatus,
 );
 
-/// The sizes are numbers on purpose: programs were compiled with them.
-const STRUCTS: [Case; 13] = [
-    // SAFETY: the room is larger than is said.
-    ("mesh info", 56, true, |w, room| unsafe {
-        holefill_mesh_info(w.mesh.0, room.as_mut_ptr().cast(), nothing())
-    }),
-    // SAFETY: the room is larger than is said.
-    ("defects", 48, true, |w, room| unsafe {
-        holefill_mesh_defects(w.mesh.0, room.as_mut_ptr().cast(), nothing())
-    }),
-    // SAFETY: the room is larger than is said.
-    ("attribute info", 24, true, |w, room| unsafe {
-        holefill_mesh_attribute_info(w.mesh.0, 1, 0, room.as_mut_ptr().cast(), nothing())
-    }),
-    // SAFETY: the room is larger than is said.
-    ("loop info", 104, true, |w, room| unsafe {
-        holefill_mesh_loop_info(w.mesh.0, 1, room.as_mut_ptr().cast(), nothing())
-    }),
-    // SAFETY: the room is larger than is said.
-    ("selection", 96, false, |w, room| unsafe {
-        let mut count = 0;
-        let room = room.as_mut_ptr();
-        holefill_mesh_select(
-            w.mesh.0,
-            room.cast(),
-            ptr::null_mut(),
-            0,
-            &mut count,
-            nothing(),
-        )
-    }),
-    ("target", 56, false, |w, room| {
-        w.plan(room.as_mut_ptr().cast(), ptr::null())
-    }),
-    ("fill options", 96, false, |w, room| {
-        w.plan(&at_loop(1), room.as_mut_ptr().cast())
-    }),
-    ("point options", 48, false, |w, room| {
-        w.points(room.as_mut_ptr().cast(), ptr::null_mut())
-    }),
-    ("point summary", 80, true, |w, room| {
-        w.points(ptr::null(), room.as_mut_ptr().cast())
-    }),
-    // SAFETY: the room is larger than is said.
-    ("patch info", 32, true, |w, room| unsafe {
-        holefill_plan_patch(w.plan, 1, room.as_mut_ptr().cast(), nothing())
-    }),
-    // SAFETY: the room is larger than is said.
-    ("hole", 128, true, |w, room| unsafe {
-        holefill_report_hole(w.report, 0, room.as_mut_ptr().cast(), nothing())
-    }),
-    // SAFETY: the room is larger than is said.
-    ("prediction", 56, true, |w, room| unsafe {
-        holefill_report_prediction(w.report, 0, room.as_mut_ptr().cast(), nothing())
-    }),
-    // SAFETY: the room is larger than is said.
-    ("summary", 80, true, |w, room| unsafe {
-        holefill_report_summary(w.report, room.as_mut_ptr().cast(), nothing())
-    }),
-];
+macro_rules! structs {
+    ($($name:literal $size:literal $is_written:literal ($w:ident, $room:ident) $call:expr;)*) => {
+        const STRUCTS: &[Case] = &[$(($name, $size, $is_written, |$w, $room| $call)),*];
+    };
+}
+// The sizes are numbers on purpose: programs were compiled with them.
+structs! {
+    "mesh info" 56 true (w, room) call!(holefill_mesh_info: w.mesh.0, room.cast());
+    "defects" 48 true (w, room) call!(holefill_mesh_defects: w.mesh.0, room.cast());
+    "attribute info" 24 true (w, room) call!(holefill_mesh_attribute_info: w.mesh.0, 1, 0, room.cast());
+    "loop info" 104 true (w, room) call!(holefill_mesh_loop_info: w.mesh.0, 1, room.cast());
+    "selection" 96 false (w, room) call!(holefill_mesh_select: w.mesh.0, room.cast(), ptr::null_mut(), 0, &mut 0);
+    "target" 56 false (w, room) w.plan(room.cast(), ptr::null());
+    "fill options" 96 false (w, room) w.plan(&at_loop(1), room.cast());
+    "point options" 48 false (w, room) w.points(room.cast(), ptr::null_mut());
+    "point summary" 80 true (w, room) w.points(ptr::null(), room.cast());
+    "patch info" 32 true (w, room) call!(holefill_plan_patch: w.plan, 1, room.cast());
+    "hole" 128 true (w, room) call!(holefill_report_hole: w.report, 0, room.cast());
+    "prediction" 56 true (w, room) call!(holefill_report_prediction: w.report, 0, room.cast());
+    "summary" 80 true (w, room) call!(holefill_report_summary: w.report, room.cast());
+}
 
 #[test]
 fn structs_of_older_and_newer_headers_are_read_and_written_as_far_as_they_go() {
     const MARK: u64 = 0x5555_5555_5555_5555;
     let world = World::new();
-    for (name, size, is_written, call) in STRUCTS {
+    for (name, size, is_written, call) in STRUCTS.iter().copied() {
         // The two numbers are the first word: the size and the version.
         let head = |size: u32, version: u64| u64::from(size) | version << 32;
         let rest = if is_written { MARK } else { 0 };
         let mut full = [rest; 64];
         full[0] = head(size, 1);
-        assert_eq!(call(&world, &mut full), HOLEFILL_STATUS_OK, "{name}");
+        assert_eq!(
+            call(&world, full.as_mut_ptr()),
+            HOLEFILL_STATUS_OK,
+            "{name}"
+        );
         for size in [0, 1, 4, 7, size - 4, size - 1, 4097, u32::MAX] {
             let mut room = [rest; 64];
             room[0] = head(size, 1);
             let before = room;
             assert_eq!(
-                call(&world, &mut room),
+                call(&world, room.as_mut_ptr()),
                 HOLEFILL_STATUS_INVALID_STRUCT,
                 "{name} {size}"
             );
@@ -168,7 +127,7 @@ fn structs_of_older_and_newer_headers_are_read_and_written_as_far_as_they_go() {
             let mut room = [rest; 64];
             room[0] = head(size, version);
             assert_eq!(
-                call(&world, &mut room),
+                call(&world, room.as_mut_ptr()),
                 HOLEFILL_STATUS_INVALID_STRUCT,
                 "{name} {version}"
             );
@@ -181,7 +140,7 @@ fn structs_of_older_and_newer_headers_are_read_and_written_as_far_as_they_go() {
                 room[1..words].fill(0);
             }
             assert_eq!(
-                call(&world, &mut room),
+                call(&world, room.as_mut_ptr()),
                 HOLEFILL_STATUS_OK,
                 "{name} of {words} words"
             );
@@ -199,7 +158,7 @@ fn structs_of_older_and_newer_headers_are_read_and_written_as_far_as_they_go() {
             } else if words > size as usize / 8 {
                 room[words - 1] = 1;
                 assert_eq!(
-                    call(&world, &mut room),
+                    call(&world, room.as_mut_ptr()),
                     HOLEFILL_STATUS_INVALID_STRUCT,
                     "{name}"
                 );
@@ -310,7 +269,7 @@ fn what_is_not_there_is_not_found() {
         let (status, report) = report_of(mesh.0, &target, &options());
         assert_eq!((status, report.id), (expected, 0), "{target:?}");
         let mut plan = HolefillPlan::default();
-        let status = call!(holefill_mesh_plan(mesh.0, &target, ptr::null(), &mut plan));
+        let status = call!(holefill_mesh_plan: mesh.0, &target, ptr::null(), &mut plan);
         assert_eq!((status, plan.id), (expected, 0), "{target:?}");
     }
     let mut numbers = [[0.0_f64; 3]; 2];
@@ -374,13 +333,7 @@ fn plans_that_no_longer_fit_are_refused() {
     undo(mesh.0);
     let labels = vec![0_u8; info(mesh.0).vertex_count as usize];
     let values = rows(&labels, HOLEFILL_TYPE_U8);
-    call!(holefill_mesh_add_attribute(
-        mesh.0,
-        1,
-        c"label".as_ptr(),
-        1,
-        &values
-    ));
+    call!(holefill_mesh_add_attribute: mesh.0, 1, c"label".as_ptr(), 1, &values);
     assert_eq!(apply(plan, mesh.0), HOLEFILL_STATUS_STALE_PLAN);
     holefill_plan_free(plan);
     holefill_plan_free(late);
@@ -418,7 +371,7 @@ fn a_panic_becomes_a_status_and_poisons_the_mesh_that_was_in_use() {
     holefill_error_free(error);
     assert_eq!(fill_loop(mesh.0, 0, &options()), HOLEFILL_STATUS_POISONED);
     let mut count = 0;
-    let status = call!(holefill_mesh_loop_count(mesh.0, &mut count));
+    let status = call!(holefill_mesh_loop_count: mesh.0, &mut count);
     assert_eq!(status, HOLEFILL_STATUS_POISONED);
     let other = holed_mesh();
     let panicking = guard::guard(nothing(), || {

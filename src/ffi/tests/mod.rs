@@ -2,7 +2,7 @@
 
 /// The status of a call without an error object. Pointers are null or to living values.
 macro_rules! call {
-    ($function:ident($($argument:expr),* $(,)?)) => {
+    ($function:ident: $($argument:expr),*) => {
         // SAFETY: as said above.
         unsafe { $function($($argument,)* nothing()) }
     };
@@ -10,8 +10,8 @@ macro_rules! call {
 
 /// Makes a call that must succeed.
 macro_rules! ok {
-    ($function:ident($($argument:expr),* $(,)?)) => {
-        assert_eq!(call!($function($($argument),*)), HOLEFILL_STATUS_OK)
+    ($function:ident: $($argument:expr),*) => {
+        assert_eq!(call!($function: $($argument),*), HOLEFILL_STATUS_OK)
     };
 }
 
@@ -69,7 +69,7 @@ fn mesh_of(arrays: &Arrays) -> Owned {
     let mut mesh = HolefillMesh::default();
     let positions = rows(&arrays.positions, HOLEFILL_TYPE_F64);
     let triangles = rows(&arrays.triangles, HOLEFILL_TYPE_U32);
-    ok!(holefill_mesh_from_arrays(&positions, &triangles, &mut mesh));
+    ok!(holefill_mesh_from_arrays: &positions, &triangles, &mut mesh);
     Owned(mesh)
 }
 
@@ -84,40 +84,40 @@ fn holed_mesh() -> Owned {
 
 fn info(mesh: HolefillMesh) -> HolefillMeshInfo {
     let mut info = structs::blank::<HolefillMeshInfo>();
-    ok!(holefill_mesh_info(mesh, &mut info));
+    ok!(holefill_mesh_info: mesh, &mut info);
     info
 }
 
 fn positions(mesh: HolefillMesh) -> Vec<[f64; 3]> {
     let mut values = vec![[0.0; 3]; info(mesh).vertex_count as usize];
     let output = place(&mut values, HOLEFILL_TYPE_F64);
-    ok!(holefill_mesh_read_positions(mesh, 0, &output));
+    ok!(holefill_mesh_read_positions: mesh, 0, &output);
     values
 }
 
 fn triangles(mesh: HolefillMesh) -> Vec<[u32; 3]> {
     let mut values = vec![[0; 3]; info(mesh).triangle_count as usize];
     let output = place(&mut values, HOLEFILL_TYPE_U32);
-    ok!(holefill_mesh_read_triangles(mesh, 0, &output));
+    ok!(holefill_mesh_read_triangles: mesh, 0, &output);
     values
 }
 
 fn loop_count(mesh: HolefillMesh) -> u64 {
     let mut count = 0;
-    ok!(holefill_mesh_loop_count(mesh, &mut count));
+    ok!(holefill_mesh_loop_count: mesh, &mut count);
     count
 }
 
 fn loop_info(mesh: HolefillMesh, id: u64) -> HolefillLoopInfo {
     let mut info = structs::blank::<HolefillLoopInfo>();
-    ok!(holefill_mesh_loop_info(mesh, id, &mut info));
+    ok!(holefill_mesh_loop_info: mesh, id, &mut info);
     info
 }
 
 fn loop_vertices(mesh: HolefillMesh, id: u64) -> Vec<u64> {
     let mut values = vec![0_u64; loop_info(mesh, id).vertex_count as usize];
     let output = place(&mut values, HOLEFILL_TYPE_U64);
-    ok!(holefill_mesh_read_loop(mesh, id, 0, &output));
+    ok!(holefill_mesh_read_loop: mesh, id, 0, &output);
     values
 }
 
@@ -137,18 +137,14 @@ fn digest(mesh: HolefillMesh) -> u64 {
     }
     for element in [HOLEFILL_ELEMENT_VERTEX, HOLEFILL_ELEMENT_TRIANGLE] {
         let mut count = 0;
-        call!(holefill_mesh_attribute_count(mesh, element, &mut count));
+        call!(holefill_mesh_attribute_count: mesh, element, &mut count);
         for index in 0..count {
             let mut info = structs::blank::<HolefillAttributeInfo>();
-            call!(holefill_mesh_attribute_info(
-                mesh, element, index, &mut info
-            ));
+            call!(holefill_mesh_attribute_info: mesh, element, index, &mut info);
             let mut values = vec![0.0_f64; (info.count * u64::from(info.components)) as usize];
             let mut output = place(&mut values, HOLEFILL_TYPE_F64);
             output.count = info.count;
-            ok!(holefill_mesh_read_attribute(
-                mesh, element, index, 0, &output
-            ));
+            ok!(holefill_mesh_read_attribute: mesh, element, index, 0, &output);
             add(bytemuck::cast_slice(&values));
         }
     }
@@ -252,7 +248,7 @@ fn fill(
     target: &HolefillTarget,
     options: &HolefillFillOptions,
 ) -> HolefillStatus {
-    call!(holefill_mesh_fill(mesh, target, options, ptr::null_mut()))
+    call!(holefill_mesh_fill: mesh, target, options, ptr::null_mut())
 }
 
 fn fill_loop(mesh: HolefillMesh, id: u64, options: &HolefillFillOptions) -> HolefillStatus {
@@ -270,13 +266,13 @@ fn report_of(
     options: &HolefillFillOptions,
 ) -> (HolefillStatus, HolefillReport) {
     let mut report = HolefillReport::default();
-    let status = call!(holefill_mesh_fill(mesh, target, options, &mut report));
+    let status = call!(holefill_mesh_fill: mesh, target, options, &mut report);
     (status, report)
 }
 
 fn hole(report: HolefillReport, index: u64) -> HolefillHole {
     let mut hole = structs::blank::<HolefillHole>();
-    ok!(holefill_report_hole(report, index, &mut hole));
+    ok!(holefill_report_hole: report, index, &mut hole);
     hole
 }
 
@@ -290,42 +286,37 @@ fn reason(report: HolefillReport, index: u64) -> String {
 /// Makes a set of parameters with one of them set.
 fn parameters(name: &CStr, value: &CStr) -> HolefillParameters {
     let mut made = HolefillParameters::default();
-    call!(holefill_parameters_new(&mut made));
-    ok!(holefill_parameters_set(made, name.as_ptr(), value.as_ptr()));
+    call!(holefill_parameters_new: &mut made);
+    ok!(holefill_parameters_set: made, name.as_ptr(), value.as_ptr());
     made
 }
 
 fn undo(mesh: HolefillMesh) -> HolefillStatus {
-    call!(holefill_mesh_undo(mesh))
+    call!(holefill_mesh_undo: mesh)
 }
 
 fn plan_loop(mesh: HolefillMesh, id: u64, options: &HolefillFillOptions) -> HolefillPlan {
     let mut plan = HolefillPlan::default();
-    ok!(holefill_mesh_plan(mesh, &at_loop(id), options, &mut plan));
+    ok!(holefill_mesh_plan: mesh, &at_loop(id), options, &mut plan);
     plan
 }
 
 fn apply(plan: HolefillPlan, mesh: HolefillMesh) -> HolefillStatus {
-    call!(holefill_plan_apply(
-        plan,
-        mesh,
-        ptr::null(),
-        ptr::null_mut()
-    ))
+    call!(holefill_plan_apply: plan, mesh, ptr::null(), ptr::null_mut())
 }
 
 /// New vertices and triangles of the patch for a loop.
 fn patch(plan: HolefillPlan, id: u64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     let mut info = structs::blank::<HolefillPatchInfo>();
-    ok!(holefill_plan_patch(plan, id, &mut info));
+    ok!(holefill_plan_patch: plan, id, &mut info);
     let mut points = vec![[0.0; 3]; info.vertex_count as usize];
     let mut faces = vec![[0; 3]; info.triangle_count as usize];
     let (to_points, to_faces) = (
         place(&mut points, HOLEFILL_TYPE_F64),
         place(&mut faces, HOLEFILL_TYPE_U32),
     );
-    ok!(holefill_plan_read_positions(plan, id, 0, &to_points));
-    ok!(holefill_plan_read_triangles(plan, id, 0, &to_faces));
+    ok!(holefill_plan_read_positions: plan, id, 0, &to_points);
+    ok!(holefill_plan_read_triangles: plan, id, 0, &to_faces);
     (points, faces)
 }
 

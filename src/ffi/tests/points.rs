@@ -161,7 +161,7 @@ fn points_may_stand_anywhere_and_duplicates_stay_as_vertices() {
     }
     let mut colors = vec![[0_u8; 3]; samples.len()];
     let output = place(&mut colors, HOLEFILL_TYPE_U8);
-    ok!(holefill_mesh_read_attribute(mesh.0, 1, 0, 0, &output));
+    ok!(holefill_mesh_read_attribute: mesh.0, 1, 0, 0, &output);
     let kept = colors.iter().zip(&samples);
     assert!(kept.into_iter().all(|(c, s)| c[..] == { s.color }[..3]));
 }

@@ -35,7 +35,7 @@ fn every_method_is_reached() {
         let mut used: Vec<&str> = static_text(hole.method).into_iter().collect();
         for attempt in 0..hole.tried_count {
             let (mut tried, mut length, no) = (ptr::null(), 0, ptr::null_mut());
-            ok!(holefill_report_tried(report, 0, attempt, &mut tried, no, 0, &mut length));
+            ok!(holefill_report_tried: report, 0, attempt, &mut tried, no, 0, &mut length);
             used.push(name(tried));
         }
         holefill_report_free(report);
@@ -102,7 +102,7 @@ fn every_parameter_is_reached() {
     assert_eq!(count as usize, known.len());
     assert!(holefill_parameter_name(count).is_null());
     let mut parameters = HolefillParameters::default();
-    call!(holefill_parameters_new(&mut parameters));
+    call!(holefill_parameters_new: &mut parameters);
     let mut asked = Vec::new();
     for (i, parameter) in (0..count).zip(&known) {
         let name = name(holefill_parameter_name(i));

@@ -1,6 +1,5 @@
 //! Filling holes.
 
-use super::callbacks::Callbacks;
 use super::failure::{Failure, invalid, invalid_struct, nth};
 use super::guard::{guard, guard_mesh_mut};
 use super::input::read_indices;
@@ -14,8 +13,6 @@ use super::status::{
 use super::structs::read_struct;
 use super::types::*;
 use crate::boundary::select::Selection;
-use crate::fill::options::FillOptions;
-use crate::fill::progress::{Progress, ProgressCallback};
 use crate::fill::report::{FillReport, HoleStatus};
 use crate::fill::session::{FillSession, Target};
 use std::ptr;
@@ -80,20 +77,6 @@ pub(super) fn status_of(report: &FillReport) -> HolefillStatus {
     }
 }
 
-/// Calls `work` with the options and the callback that it takes.
-pub(super) fn with_callback<R>(
-    options: FillOptions,
-    callbacks: &Callbacks,
-    work: impl FnOnce(&FillOptions, Option<ProgressCallback<'_>>) -> R,
-) -> R {
-    let tell = |progress: Progress| callbacks.tell(progress);
-    let callback: Option<ProgressCallback<'_>> = match callbacks.has_progress() {
-        true => Some(&tell),
-        false => None,
-    };
-    work(&options, callback)
-}
-
 /// Changes a mesh by `work`, and hands out the report if the caller wants it. When that fails the mesh is as before.
 ///
 /// # Safety
@@ -147,9 +130,8 @@ pub unsafe extern "C" fn holefill_mesh_fill(
         let fill = |session: &mut FillSession| {
             // SAFETY: the caller's promise.
             let wish = unsafe { Wish::read(target, session)? };
-            Ok(with_callback(options, &callbacks, |options, progress| {
-                session.fill(wish.target(), options, progress)
-            })?)
+            Ok(callbacks
+                .with_progress(|progress| session.fill(wish.target(), &options, progress))?)
         };
         // SAFETY: the caller's promise.
         let filled = with_mesh_mut(mesh.id, |object| unsafe { change(object, report, fill) })?;

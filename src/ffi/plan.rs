@@ -1,7 +1,7 @@
 //! Planning patches without changing the mesh, reading them, and applying them.
 
 use super::failure::{Failure, not_null};
-use super::fill::{Wish, change, status_of, with_callback};
+use super::fill::{Wish, change, status_of};
 use super::guard::{guard, guard_plan, guard_silent};
 use super::objects::{Object, PLAN, PlanObject, free, with_mesh, with_mesh_mut, with_plan};
 use super::options::read_options;
@@ -40,9 +40,8 @@ pub unsafe extern "C" fn holefill_mesh_plan(
             let session = &object.session;
             // SAFETY: the caller's promise.
             let wish = unsafe { Wish::read(target, session)? };
-            Ok(with_callback(options, &callbacks, |options, progress| {
-                session.plan(wish.target(), options, progress)
-            })?)
+            Ok(callbacks
+                .with_progress(|progress| session.plan(wish.target(), &options, progress))?)
         })?;
         callbacks.log(planned.report());
         let status = status_of(planned.report());
@@ -71,12 +70,11 @@ pub unsafe extern "C" fn holefill_plan_apply(
 ) -> HolefillStatus {
     guard(error, || {
         // SAFETY: the caller's promise.
-        let (options, callbacks) = unsafe { read_options(options)? };
+        let (_, callbacks) = unsafe { read_options(options)? };
         let filled = with_plan(plan.id, |object| {
             let apply = |session: &mut FillSession| {
-                let applied = with_callback(options, &callbacks, |_, progress| {
-                    session.apply(&object.plan, progress)
-                });
+                let applied =
+                    callbacks.with_progress(|progress| session.apply(&object.plan, progress));
                 applied.map_err(|e| match e.kind() {
                     ErrorKind::InvalidInput => {
                         Failure::new(HOLEFILL_STATUS_STALE_PLAN, e.to_string())

@@ -15,7 +15,7 @@ use super::types::{
 };
 use crate::fill::options::FillOptions;
 use crate::fill::pipeline::thread_pool;
-use crate::fill::progress::{Progress, ProgressCallback, Watch};
+use crate::fill::progress::Watch;
 use crate::fill::session::FillSession;
 use crate::mesh::trimesh::TriMesh;
 use crate::reconstruct::{PointCloud, PointOptions, PointReport, mesh_from_points};
@@ -61,15 +61,12 @@ unsafe fn read_point_options(options: *const HolefillPointOptions) -> Result<Giv
 /// Makes the mesh, on as many threads and for as long as is allowed.
 fn reconstruct(cloud: PointCloud, given: &Given) -> Result<(TriMesh, PointReport), Failure> {
     let pool = thread_pool(&given.limits)?;
-    let tell = |progress: Progress| given.callbacks.tell(progress);
-    let callback: Option<ProgressCallback<'_>> = match given.callbacks.has_progress() {
-        true => Some(&tell),
-        false => None,
-    };
-    let watch = Watch::new(0, given.limits.time_budget, callback);
-    let interrupted = || watch.is_interrupted();
-    let made = pool.install(|| mesh_from_points(cloud, &given.points, &interrupted));
-    Ok(made.map_err(|e| watch.explain(e))?)
+    given.callbacks.with_progress(|progress| {
+        let watch = Watch::new(0, given.limits.time_budget, progress);
+        let interrupted = || watch.is_interrupted();
+        let made = pool.install(|| mesh_from_points(cloud, &given.points, &interrupted));
+        Ok(made.map_err(|e| watch.explain(e))?)
+    })
 }
 
 /// Makes a mesh from copies of unorganized points, such as those of a scanner: oriented, without edges of more than two

@@ -318,10 +318,7 @@ fn methods_that_were_tried_are_listed_with_reasons() {
     assert!(hole.tried_count >= 1);
     let mut method: *const c_char = ptr::null();
     let place = &raw mut method;
-    // SAFETY: `text` gives room as it says, and `method` lives.
-    let reason = text(&|buffer, capacity, length| unsafe {
-        holefill_report_tried(report, 0, 0, place, buffer, capacity, length, nothing())
-    });
+    let reason = told!(holefill_report_tried: report, 0, 0, place);
     assert_eq!(static_text(method), Some("fair-c1"));
     assert!(!reason.is_empty());
     holefill_report_free(report);
@@ -337,10 +334,7 @@ fn a_report_is_also_one_text_with_what_was_predicted() {
         let mesh = mesh_of(&arrays);
         let (status, report) = report_of(mesh.0, &every_loop(), &with_method(method));
         assert_eq!(status, HOLEFILL_STATUS_OK);
-        // SAFETY: `text` gives room as it says.
-        let json = text(&|buffer, capacity, length| unsafe {
-            holefill_report_json(report, buffer, capacity, length, nothing())
-        });
+        let json = told!(holefill_report_json: report);
         let json: serde_json::Value = serde_json::from_str(&json).unwrap();
         let holes = json["holes"].as_array().unwrap();
         assert_eq!(holes.len() as u64, loop_count(mesh.0));
@@ -469,11 +463,7 @@ fn attributes_go_in_come_out_and_are_continued() {
             .flatten()
             .all(|c| c.abs() <= 1.0 + 1e-9)
     );
-    // SAFETY: `text` gives room as it says.
-    let name = text(&|buffer, capacity, length| unsafe {
-        let element = HOLEFILL_ELEMENT_VERTEX;
-        holefill_mesh_attribute_name(mesh.0, element, 1, buffer, capacity, length, nothing())
-    });
+    let name = told!(holefill_mesh_attribute_name: mesh.0, HOLEFILL_ELEMENT_VERTEX, 1);
     assert_eq!(name, "color");
     assert_eq!(undo(mesh.0), HOLEFILL_STATUS_OK);
     assert_eq!(digest(mesh.0), before);

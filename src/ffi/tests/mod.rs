@@ -15,6 +15,13 @@ macro_rules! ok {
     };
 }
 
+/// The text that a function writes to a buffer of the caller.
+macro_rules! told {
+    ($function:ident: $($argument:expr),*) => {
+        text(&|buffer, capacity, length| call!($function: $($argument),*, buffer, capacity, length))
+    };
+}
+
 mod calls;
 mod cancel;
 mod cost;
@@ -277,10 +284,7 @@ fn hole(report: HolefillReport, index: u64) -> HolefillHole {
 }
 
 fn reason(report: HolefillReport, index: u64) -> String {
-    // SAFETY: `text` gives room as it says.
-    text(&|buffer, capacity, length| unsafe {
-        holefill_report_reason(report, index, buffer, capacity, length, nothing())
-    })
+    told!(holefill_report_reason: report, index)
 }
 
 /// Makes a set of parameters with one of them set.

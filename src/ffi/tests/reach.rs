@@ -64,17 +64,7 @@ fn set(parameters: HolefillParameters, name: &str, value: &str) -> bool {
 
 fn get(parameters: HolefillParameters, name: &str) -> String {
     let name = text_of(name);
-    // SAFETY: `text` gives room as it says.
-    text(&|buffer, capacity, length| unsafe {
-        holefill_parameters_get(
-            parameters,
-            name.as_ptr(),
-            buffer,
-            capacity,
-            length,
-            nothing(),
-        )
-    })
+    told!(holefill_parameters_get: parameters, name.as_ptr())
 }
 
 /// Values that a parameter may take: the words of its description, also with an ending that is named there, and some

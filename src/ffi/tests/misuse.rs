@@ -201,7 +201,7 @@ fn options_out_of_their_range_are_refused_and_nothing_is_filled() {
     use HOLEFILL_STATUS_INVALID_ARGUMENT as INVALID;
     let mesh = holed_mesh();
     let before = digest(mesh.0);
-    let changes: [(fn(&mut HolefillFillOptions), HolefillStatus); 10] = [
+    let changes: [Change<HolefillFillOptions>; 10] = [
         (|o| o.method = c"no such".as_ptr(), INVALID),
         (|o| o.method = c"fa\xffir".as_ptr(), INVALID),
         (|o| o.density = -1.0, INVALID),

@@ -68,6 +68,9 @@ fn place<T>(rows: &mut [T], scalar_type: HolefillType) -> HolefillOutput {
     }
 }
 
+/// A change of options, and how a call with them ends.
+type Change<T> = (fn(&mut T), HolefillStatus);
+
 fn nothing() -> *mut HolefillError {
     ptr::null_mut()
 }

@@ -191,7 +191,7 @@ fn options_for_points_are_checked() {
     use HOLEFILL_STATUS_INVALID_ARGUMENT as INVALID;
     let points = cloud();
     let view = rows(&points, HOLEFILL_TYPE_F64);
-    let changes: [(fn(&mut HolefillPointOptions), HolefillStatus); 15] = [
+    let changes: [Change<HolefillPointOptions>; 15] = [
         (|_| {}, HOLEFILL_STATUS_OK),
         (|o| o.time_budget = 1e6, HOLEFILL_STATUS_OK),
         (|o| o.radius = -1.0, INVALID),

@@ -95,13 +95,6 @@ void handles() {
     CHECK_OK(holefill_mesh_plan(f.mesh, nullptr, nullptr, &plan, nullptr));
     CHECK_FAILS(holefill_mesh_info(HolefillMesh{plan.id}, &info, nullptr), HOLEFILL_STATUS_INVALID_HANDLE);
     CHECK_FAILS(holefill_plan_free(HolefillPlan{f.mesh.id}), HOLEFILL_STATUS_INVALID_HANDLE);
-    HolefillReport report{};
-    CHECK_FAILS(holefill_plan_report(HolefillPlan{f.mesh.id}, &report, nullptr), HOLEFILL_STATUS_INVALID_HANDLE);
-    CHECK_FAILS(holefill_report_free(HolefillReport{plan.id}), HOLEFILL_STATUS_INVALID_HANDLE);
-    HolefillSummary summary = HOLEFILL_SUMMARY_INIT;
-    CHECK_FAILS(holefill_report_summary(HolefillReport{plan.id}, &summary, nullptr), HOLEFILL_STATUS_INVALID_HANDLE);
-    CHECK_FAILS(holefill_parameters_free(HolefillParameters{plan.id}), HOLEFILL_STATUS_INVALID_HANDLE);
-    CHECK_FAILS(holefill_error_free(HolefillError{plan.id}), HOLEFILL_STATUS_INVALID_HANDLE);
 
     // A plan is of one mesh, and of that mesh as it was.
     Fixture stranger;

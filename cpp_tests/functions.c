@@ -136,28 +136,23 @@ static void count_lines(HolefillLogLevel level, const char *message, void *data)
 static void check_prediction(HolefillReport report, uint64_t index) {
     HolefillPrediction prediction = HOLEFILL_PREDICTION_INIT;
     const HolefillStatus status = holefill_report_prediction(report, index, &prediction, NULL);
-    const char *candidate = NULL;
-    char reason[256];
-    double score = -1.0;
-    uint64_t k, length = 0;
     if (status == HOLEFILL_STATUS_NOT_FOUND) {
-        CHECK(holefill_report_without_creases(report, index, reason, sizeof reason, &length, NULL) == status);
         return;
     }
     CHECK_OK(status);
     CHECK(prediction.chosen != NULL && prediction.noise >= 0.0);
     CHECK(prediction.is_tip + prediction.is_flat <= 1);
-    for (k = 0; k < prediction.score_count; ++k) {
-        CHECK_OK(holefill_report_score(report, index, k, &candidate, &score, NULL));
-        CHECK(candidate != NULL && score >= 0.0);
-    }
-    CHECK(holefill_report_score(report, index, k, &candidate, &score, NULL) == HOLEFILL_STATUS_NOT_FOUND);
-    for (k = 0; k < prediction.crease_surface_count; ++k) {
-        CHECK_OK(holefill_report_crease_surface(report, index, k, &candidate, NULL));
-        CHECK(candidate != NULL);
-    }
-    CHECK(holefill_report_crease_surface(report, index, k, &candidate, NULL) == HOLEFILL_STATUS_NOT_FOUND);
-    CHECK_OK(holefill_report_without_creases(report, index, reason, sizeof reason, &length, NULL));
+}
+
+static void check_json(HolefillReport report) {
+    uint64_t length = 0;
+    char *text = NULL;
+    CHECK_OK(holefill_report_json(report, NULL, 0, &length, NULL));
+    text = (char *)malloc((size_t)length + 1);
+    CHECK(text != NULL);
+    CHECK_OK(holefill_report_json(report, text, length + 1, &length, NULL));
+    CHECK(strlen(text) == length && text[0] == '{' && strstr(text, "\"holes\"") != NULL);
+    free(text);
 }
 
 static void check_report(HolefillReport report, uint64_t expected) {
@@ -184,48 +179,85 @@ static void check_report(HolefillReport report, uint64_t expected) {
         }
     }
     CHECK(filled == expected);
+    check_json(report);
     CHECK_OK(holefill_report_free(report));
+}
+
+/* A target of this kind. */
+static HolefillTarget target(HolefillTargetKind kind) {
+    HolefillTarget made = HOLEFILL_TARGET_INIT;
+    made.kind = kind;
+    return made;
+}
+
+static HolefillTarget at_loop(uint64_t id) {
+    HolefillTarget made = target(HOLEFILL_TARGET_LOOP);
+    made.loop_id = id;
+    return made;
+}
+
+/* Fills the first hole, named in every way, and undoes it, or plans it. */
+static void check_targets(HolefillMesh mesh, const Sheet *sheet) {
+    HolefillTarget ways[4];
+    HolefillReport report = {0};
+    HolefillPlan plan = {0};
+    HolefillInput chain = HOLEFILL_INPUT_INIT, ids = HOLEFILL_INPUT_INIT;
+    HolefillOutput output = HOLEFILL_OUTPUT_INIT;
+    int32_t vertices[4 * SHEET_HOLE];
+    uint64_t id = 0;
+    int64_t signed_id;
+    int i;
+    CHECK_OK(holefill_mesh_find_edge(mesh, sheet->hole_edge[0], sheet->hole_edge[1], &id, NULL));
+    output.data = vertices;
+    output.count = 4 * SHEET_HOLE;
+    output.scalar_type = HOLEFILL_TYPE_I32;
+    CHECK_OK(holefill_mesh_read_loop(mesh, id, 0, &output, NULL));
+    chain.data = vertices;
+    chain.count = 4 * SHEET_HOLE;
+    chain.scalar_type = HOLEFILL_TYPE_I32;
+    signed_id = (int64_t)id;
+    ids.data = &signed_id;
+    ids.count = 1;
+    ids.scalar_type = HOLEFILL_TYPE_I64;
+    ways[0] = at_loop(id);
+    ways[1] = target(HOLEFILL_TARGET_EDGE);
+    ways[1].edge[0] = sheet->hole_edge[0];
+    ways[1].edge[1] = sheet->hole_edge[1];
+    ways[2] = target(HOLEFILL_TARGET_VERTICES);
+    ways[2].ids = &chain;
+    ways[3] = target(HOLEFILL_TARGET_LOOPS);
+    ways[3].ids = &ids;
+    for (i = 0; i < 4; ++i) {
+        CHECK_OK(holefill_mesh_fill(mesh, &ways[i], NULL, &report, NULL));
+        check_report(report, 1);
+        CHECK_STATUS(holefill_mesh_fill(mesh, &ways[i], NULL, NULL, NULL), HOLEFILL_STATUS_INVALID_ARGUMENT);
+        CHECK_OK(holefill_mesh_undo(mesh, NULL));
+        CHECK_STATUS(holefill_mesh_undo(mesh, NULL), HOLEFILL_STATUS_NOTHING_TO_UNDO);
+        CHECK_OK(holefill_mesh_plan(mesh, &ways[i], NULL, &plan, NULL));
+        CHECK_OK(holefill_plan_report(plan, &report, NULL));
+        check_report(report, 1);
+        CHECK_OK(holefill_plan_free(plan));
+    }
+    chain.count -= 1;
+    CHECK_STATUS(holefill_mesh_fill(mesh, &ways[2], NULL, NULL, NULL), HOLEFILL_STATUS_NOT_FOUND);
+    signed_id = -1;
+    CHECK_STATUS(holefill_mesh_fill(mesh, &ways[3], NULL, NULL, NULL), HOLEFILL_STATUS_INVALID_ARGUMENT);
+    CHECK_OK(holefill_mesh_fill_all(mesh, NULL));
+    CHECK_OK(holefill_mesh_undo(mesh, NULL));
 }
 
 static void check_fills(HolefillMesh mesh, const Sheet *sheet) {
     HolefillFillOptions options = HOLEFILL_FILL_OPTIONS_INIT, same;
     HolefillSelection selection = HOLEFILL_SELECTION_INIT;
+    HolefillTarget selected = target(HOLEFILL_TARGET_SELECTED);
     HolefillReport report = {0};
-    HolefillInput rows = HOLEFILL_INPUT_INIT;
-    HolefillLoopInfo info = HOLEFILL_LOOP_INFO_INIT;
     HolefillMeshInfo size = HOLEFILL_MESH_INFO_INIT;
     HolefillOutput output = HOLEFILL_OUTPUT_INIT;
-    uint32_t vertices[4 * SHEET_HOLE];
-    uint64_t id = 0, calls = 0, lines = 0, i;
+    uint64_t calls = 0, lines = 0, i;
     double *positions;
     CHECK_OK(holefill_fill_options_init(&same, sizeof same));
     CHECK(same.struct_size == options.struct_size && same.version == options.version && same.threads == 0);
-    CHECK_OK(holefill_mesh_find_edge(mesh, sheet->hole_edge[0], sheet->hole_edge[1], &id, NULL));
-    CHECK_OK(holefill_mesh_fill_loop(mesh, id, NULL, &report, NULL));
-    check_report(report, 1);
-    CHECK_OK(holefill_mesh_loop_info(mesh, id, &info, NULL));
-    CHECK(info.is_open == 0);
-    CHECK_STATUS(holefill_mesh_fill_loop(mesh, id, NULL, NULL, NULL), HOLEFILL_STATUS_INVALID_ARGUMENT);
-    CHECK_OK(holefill_mesh_undo(mesh, NULL));
-    CHECK_STATUS(holefill_mesh_undo(mesh, NULL), HOLEFILL_STATUS_NOTHING_TO_UNDO);
-    CHECK_OK(holefill_mesh_fill_edge(mesh, sheet->hole_edge[0], sheet->hole_edge[1], NULL, NULL, NULL));
-    CHECK_OK(holefill_mesh_undo(mesh, NULL));
-    output.data = vertices;
-    output.count = 4 * SHEET_HOLE;
-    output.scalar_type = HOLEFILL_TYPE_U32;
-    CHECK_OK(holefill_mesh_read_loop(mesh, id, 0, &output, NULL));
-    rows.data = vertices;
-    rows.count = 4 * SHEET_HOLE;
-    rows.scalar_type = HOLEFILL_TYPE_U32;
-    CHECK_OK(holefill_mesh_fill_vertices(mesh, &rows, NULL, &report, NULL));
-    check_report(report, 1);
-    CHECK_OK(holefill_mesh_undo(mesh, NULL));
-    rows.data = &id;
-    rows.count = 1;
-    rows.scalar_type = HOLEFILL_TYPE_U64;
-    CHECK_OK(holefill_mesh_fill_loops(mesh, &rows, NULL, &report, NULL));
-    check_report(report, 1);
-
+    selected.selection = &selection;
     selection.keep_largest = 1;
     options.method = "fair-c1";
     options.threads = 1;
@@ -233,14 +265,14 @@ static void check_fills(HolefillMesh mesh, const Sheet *sheet) {
     options.progress_data = &calls;
     options.log = count_lines;
     options.log_data = &lines;
-    CHECK_OK(holefill_mesh_fill_selected(mesh, &selection, &options, &report, NULL));
-    check_report(report, sheet->hole_count - 1);
-    CHECK(calls >= sheet->hole_count - 1 && lines >= sheet->hole_count - 1);
+    CHECK_OK(holefill_mesh_fill(mesh, &selected, &options, &report, NULL));
+    check_report(report, sheet->hole_count);
+    CHECK(calls >= sheet->hole_count && lines >= sheet->hole_count);
 
     /* What was there is there, bit for bit. */
     CHECK_OK(holefill_mesh_info(mesh, &size, NULL));
     CHECK(size.input_vertex_count == sheet->vertex_count && size.vertex_count > size.input_vertex_count);
-    CHECK(size.undo_count == 2 && size.is_polyline == 0);
+    CHECK(size.undo_count == 1 && size.is_polyline == 0);
     positions = (double *)malloc((size_t)size.vertex_count * 3 * sizeof(double));
     CHECK(positions != NULL);
     output.data = positions;
@@ -258,14 +290,14 @@ static void check_plans(HolefillMesh mesh, const Sheet *sheet) {
     HolefillPlan plan = {0};
     HolefillReport report = {0};
     HolefillPatchInfo patch = HOLEFILL_PATCH_INFO_INIT;
-    HolefillSelection selection = HOLEFILL_SELECTION_INIT;
     HolefillOutput output = HOLEFILL_OUTPUT_INIT;
-    HolefillInput rows = HOLEFILL_INPUT_INIT;
-    uint32_t vertices[4 * SHEET_HOLE], *triangles;
+    HolefillTarget one;
+    uint32_t *triangles;
     double *positions;
     uint64_t id = 0, i;
     CHECK_OK(holefill_mesh_find_edge(mesh, sheet->hole_edge[0], sheet->hole_edge[1], &id, NULL));
-    CHECK_OK(holefill_mesh_plan_loop(mesh, id, NULL, &plan, NULL));
+    one = at_loop(id);
+    CHECK_OK(holefill_mesh_plan(mesh, &one, NULL, &plan, NULL));
     CHECK_OK(holefill_plan_patch(plan, id, &patch, NULL));
     CHECK(patch.first_vertex == sheet->vertex_count && patch.vertex_count > 0);
     positions = (double *)malloc((size_t)patch.vertex_count * 3 * sizeof(double));
@@ -290,28 +322,6 @@ static void check_plans(HolefillMesh mesh, const Sheet *sheet) {
     check_report(report, 1);
     CHECK_OK(holefill_plan_free(plan));
     CHECK_OK(holefill_mesh_undo(mesh, NULL));
-
-    CHECK_OK(holefill_mesh_plan_edge(mesh, sheet->hole_edge[0], sheet->hole_edge[1], NULL, &plan, NULL));
-    CHECK_OK(holefill_plan_free(plan));
-    output.data = vertices;
-    output.count = 4 * SHEET_HOLE;
-    output.scalar_type = HOLEFILL_TYPE_U32;
-    CHECK_OK(holefill_mesh_read_loop(mesh, id, 0, &output, NULL));
-    rows.data = vertices;
-    rows.count = 4 * SHEET_HOLE;
-    rows.scalar_type = HOLEFILL_TYPE_U32;
-    CHECK_OK(holefill_mesh_plan_vertices(mesh, &rows, NULL, &plan, NULL));
-    CHECK_OK(holefill_plan_free(plan));
-    rows.data = &id;
-    rows.count = 1;
-    rows.scalar_type = HOLEFILL_TYPE_U64;
-    CHECK_OK(holefill_mesh_plan_loops(mesh, &rows, NULL, &plan, NULL));
-    CHECK_OK(holefill_plan_free(plan));
-    selection.keep_largest = 1;
-    CHECK_OK(holefill_mesh_plan_selected(mesh, &selection, NULL, &plan, NULL));
-    CHECK_OK(holefill_plan_apply(plan, mesh, NULL, &report, NULL));
-    check_report(report, sheet->hole_count);
-    CHECK_OK(holefill_plan_free(plan));
 }
 
 static void check_polyline(void) {
@@ -337,7 +347,7 @@ static void check_polyline(void) {
         normals[i][2] = 0.8f;
     }
     CHECK_OK(holefill_mesh_from_polyline(&input, &normal_input, &mesh, NULL));
-    CHECK_OK(holefill_mesh_fill_loop(mesh, 0, NULL, &report, NULL));
+    CHECK_OK(holefill_mesh_fill(mesh, NULL, NULL, &report, NULL));
     check_report(report, 1);
     CHECK_OK(holefill_mesh_info(mesh, &info, NULL));
     CHECK(info.is_polyline == 1 && info.input_vertex_count == COUNT && info.vertex_count > COUNT);
@@ -353,68 +363,23 @@ static void check_polyline(void) {
     CHECK_OK(holefill_mesh_free(mesh));
 }
 
-static int32_t count_questions(const HolefillProgress *progress, void *data) {
-    CHECK(progress->holes_done == 0 && progress->holes_total == 0);
-    ++*(uint64_t *)data;
-    return 0;
-}
-
 static void check_points(const Sheet *sheet) {
-    HolefillInput points = HOLEFILL_INPUT_INIT, normals, colors;
+    HolefillInput points = HOLEFILL_INPUT_INIT;
     HolefillPointOptions options = HOLEFILL_POINT_OPTIONS_INIT;
     HolefillPointSummary summary = HOLEFILL_POINT_SUMMARY_INIT;
-    HolefillAttributeInfo color = HOLEFILL_ATTRIBUTE_INFO_INIT;
     HolefillMeshInfo info = HOLEFILL_MESH_INFO_INIT;
-    HolefillOutput output = HOLEFILL_OUTPUT_INIT;
     HolefillMesh mesh = {0};
     const uint64_t n = sheet->vertex_count;
-    float up[3] = {0.0f, 0.0f, 2.0f};
-    uint8_t back[4];
-    uint64_t i, questions = 0, count = 0;
-    float *all_up = (float *)malloc((size_t)n * sizeof up);
-    uint8_t *rgb = (uint8_t *)malloc((size_t)n * 4);
-    CHECK(all_up != NULL && rgb != NULL);
-    for (i = 0; i < n; ++i) {
-        memcpy(all_up + 3 * i, up, sizeof up);
-        rgb[4 * i] = 10;
-        rgb[4 * i + 1] = (uint8_t)(i % 200);
-        rgb[4 * i + 2] = 30;
-        rgb[4 * i + 3] = 255;
-    }
     points.data = sheet->positions;
     points.count = n;
     points.scalar_type = HOLEFILL_TYPE_F64;
-    normals = points;
-    normals.data = all_up;
-    normals.scalar_type = HOLEFILL_TYPE_F32;
-    colors = points;
-    colors.data = rgb;
-    colors.stride = 4;
-    colors.scalar_type = HOLEFILL_TYPE_U8;
     options.threads = 1;
-    options.progress = count_questions;
-    options.progress_data = &questions;
-    CHECK_OK(holefill_mesh_from_points(&points, &normals, &colors, &options, &mesh, &summary, NULL));
+    CHECK_OK(holefill_mesh_from_points(&points, NULL, &points, &options, &mesh, &summary, NULL));
     CHECK_OK(holefill_mesh_info(mesh, &info, NULL));
     CHECK(info.vertex_count == n && info.triangle_count == summary.triangle_count);
     CHECK(summary.used == n && summary.duplicates == 0 && summary.unused == 0 && summary.piece_count == 1);
-    CHECK(summary.estimated_normals == 0 && summary.radius[0] > 0.0 && summary.radius[2] >= summary.radius[1]);
-    CHECK_OK(holefill_mesh_attribute_count(mesh, HOLEFILL_ELEMENT_VERTEX, &count, NULL));
-    CHECK_OK(holefill_mesh_attribute_info(mesh, HOLEFILL_ELEMENT_VERTEX, 0, &color, NULL));
-    CHECK(count == 1 && color.components == 3 && color.scalar_type == HOLEFILL_TYPE_U8 && color.count == n);
-    output.data = back;
-    output.count = 1;
-    output.scalar_type = HOLEFILL_TYPE_U8;
-    CHECK_OK(holefill_mesh_read_attribute(mesh, HOLEFILL_ELEMENT_VERTEX, 0, 7, &output, NULL));
-    CHECK(back[0] == 10 && back[1] == 7 && back[2] == 30);
-    CHECK_OK(holefill_mesh_loop_count(mesh, &count, NULL));
-    CHECK(count >= 1);
+    CHECK(summary.estimated_normals == n && summary.radius[0] > 0.0 && summary.radius[2] >= summary.radius[1]);
     CHECK_OK(holefill_mesh_free(mesh));
-    /* Nothing but points. */
-    CHECK_OK(holefill_mesh_from_points(&points, NULL, NULL, NULL, &mesh, NULL, NULL));
-    CHECK_OK(holefill_mesh_free(mesh));
-    free(all_up);
-    free(rgb);
 }
 
 int main(void) {
@@ -425,8 +390,8 @@ int main(void) {
     mesh = make_mesh(&sheet);
     check_attributes(mesh, &sheet);
     check_loops(mesh, &sheet);
+    check_targets(mesh, &sheet);
     check_plans(mesh, &sheet);
-    CHECK_OK(holefill_mesh_undo(mesh, NULL));
     check_fills(mesh, &sheet);
     CHECK_OK(holefill_mesh_free(mesh));
     check_polyline();

@@ -7,6 +7,7 @@ extern uint32_t header_only_use(void);
 uint32_t header_only_use(void) {
     const HolefillFillOptions options = HOLEFILL_FILL_OPTIONS_INIT;
     const HolefillSelection selection = HOLEFILL_SELECTION_INIT;
+    const HolefillTarget target = HOLEFILL_TARGET_INIT;
     const HolefillMeshInfo mesh = HOLEFILL_MESH_INFO_INIT;
     const HolefillDefects defects = HOLEFILL_DEFECTS_INIT;
     const HolefillAttributeInfo attribute = HOLEFILL_ATTRIBUTE_INFO_INIT;
@@ -19,7 +20,7 @@ uint32_t header_only_use(void) {
     const HolefillSummary summary = HOLEFILL_SUMMARY_INIT;
     const HolefillInput input = HOLEFILL_INPUT_INIT;
     const HolefillOutput output = HOLEFILL_OUTPUT_INIT;
-    return options.struct_size + selection.struct_size + mesh.struct_size + defects.struct_size +
+    return options.struct_size + selection.struct_size + target.struct_size + mesh.struct_size + defects.struct_size +
            attribute.struct_size + loop.struct_size + points.struct_size + became.struct_size + patch.struct_size +
            hole.struct_size + prediction.struct_size + summary.struct_size + input.scalar_type + output.scalar_type;
 }

@@ -11,11 +11,11 @@ int main() {
     const holefill::Rows<3> triangles(sheet.triangles, sheet.triangle_count);
     holefill::Expected<holefill::Mesh> mesh = holefill::Mesh::from_arrays(positions, triangles);
     CHECK(mesh && mesh.failure().status == HOLEFILL_STATUS_OK);
-    const auto missing = mesh->fill_loop(1000);
+    const auto missing = mesh->fill(holefill::Target::loop(1000));
     CHECK(!missing && missing.failure().status == HOLEFILL_STATUS_NOT_FOUND);
     CHECK(!missing.failure().message.empty());
-    const auto report = mesh->fill_all();
-    CHECK(report && report->summary().value().filled == sheet.hole_count + 1);
+    const auto report = mesh->fill();
+    CHECK(report && report->is_complete() && report->summary().value().filled == sheet.hole_count + 1);
     CHECK(mesh->undo().has_value() && !mesh->undo().has_value());
     holefill::Options options;
     CHECK(!options.set("nonsense", "1") && options.set("refine.density", "2"));

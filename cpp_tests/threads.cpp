@@ -28,9 +28,9 @@ struct Reference {
         holefill::Mesh m = mesh();
         const auto loops = m.loop_count();
         for (uint64_t id = 0; id < loops; ++id) {
-            patches.push_back(m.plan_loop(id, holefill::Options().threads(1)).patch(id).positions);
+            patches.push_back(m.plan(holefill::Target::loop(id), holefill::Options().threads(1)).patch(id).positions);
         }
-        m.fill_all(holefill::Options().threads(1));
+        CHECK(m.fill(holefill::Options().threads(1)).is_complete());
         filled = m.positions();
     }
     ~Reference() { sheet_free(&sheet); }
@@ -65,7 +65,8 @@ void read(const Reference& reference, const holefill::Mesh& shared, std::mt19937
     default:
         // The outer rim is a large hole: one call in a few dozen is enough.
         if (reference.patches[id].size() < 100) {
-            CHECK(shared.plan_loop(id, holefill::Options().threads(1)).patch(id).positions == reference.patches[id]);
+            const auto target = holefill::Target::loop(id);
+            CHECK(shared.plan(target, holefill::Options().threads(1)).patch(id).positions == reference.patches[id]);
         }
     }
 }
@@ -74,7 +75,10 @@ void read(const Reference& reference, const holefill::Mesh& shared, std::mt19937
 void contend(const Reference& reference, holefill::Mesh& contended, std::mt19937& random) {
     switch (random() % 4) {
     case 0:
-        is_done([&] { contended.fill_loop(random() % reference.patches.size(), holefill::Options().threads(1)); });
+        is_done([&] {
+            const auto target = holefill::Target::loop(random() % reference.patches.size());
+            (void)contended.fill(target, holefill::Options().threads(1));
+        });
         break;
     case 1:
         is_done([&] { contended.undo(); });
@@ -89,7 +93,7 @@ void contend(const Reference& reference, holefill::Mesh& contended, std::mt19937
 
 void own(const Reference& reference) {
     holefill::Mesh mesh = reference.mesh();
-    mesh.fill_all(holefill::Options().threads(1));
+    CHECK(mesh.fill(holefill::Options().threads(1)).is_complete());
     CHECK(mesh.positions() == reference.filled);
 }
 
@@ -122,7 +126,7 @@ int main(int argc, char** argv) {
         }
         while (is_done([&] { contended.undo(); })) {
         }
-        contended.fill_all(holefill::Options().threads(2));
+        CHECK(contended.fill(holefill::Options().threads(2)).is_complete());
         CHECK(contended.positions() == reference.filled);
     }
     CHECK(holefill_handle_count() == 0);

@@ -12,6 +12,7 @@
 #include <string>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 
 static_assert(!std::is_copy_constructible_v<holefill::Mesh> && std::is_nothrow_move_constructible_v<holefill::Mesh>);
 static_assert(!std::is_copy_constructible_v<holefill::Plan> && std::is_nothrow_move_assignable_v<holefill::Plan>);
@@ -80,20 +81,19 @@ void everything_once() {
     CHECK(mesh.select(holes).size() == a.hole_count);
 
     // Plans leave the mesh as it is and can be applied.
-    const holefill::Plan plan = mesh.plan_loop(id);
+    using holefill::Target;
+    const holefill::Plan plan = mesh.plan(Target::loop(id));
     const holefill::Patch patch = plan.patch(id);
     CHECK(patch.first_vertex == a.positions.size() && !patch.positions.empty() && !patch.triangles.empty());
-    CHECK(plan.report().hole(0).status == HOLEFILL_HOLE_FILLED);
-    const holefill::Hole predicted = mesh.plan_loop(id, holefill::Options().method("auto")).report().hole(0);
-    CHECK(predicted.prediction && !predicted.prediction->scores.empty());
-    const std::vector<holefill::Score>& scores = predicted.prediction->scores;
-    const auto is_chosen = [&](const holefill::Score& s) { return s.candidate == predicted.prediction->chosen; };
-    const auto chosen = std::find_if(scores.begin(), scores.end(), is_chosen);
-    CHECK(chosen != scores.end() && chosen->value >= 0.0);
-    CHECK(predicted.prediction->crease_surfaces.empty() && predicted.prediction->without_creases.empty());
-    CHECK(!mesh.plan_loop(id, holefill::Options().method("fair-c1")).report().hole(0).prediction);
+    CHECK(plan.is_complete() && plan.report().hole(0).status == HOLEFILL_HOLE_FILLED);
+    const holefill::Report predicted = mesh.plan(Target::loop(id), holefill::Options().method("auto")).report();
+    const holefill::Hole hole = predicted.hole(0);
+    CHECK(hole.prediction && hole.prediction->score_count > 0 && hole.prediction->chosen);
+    const std::string json = predicted.json();
+    CHECK(json.find("\"scores\"") != std::string::npos && json.find(hole.prediction->chosen) != std::string::npos);
+    CHECK(!mesh.plan(Target::loop(id), holefill::Options().method("fair-c1")).report().hole(0).prediction);
     CHECK(mesh.positions() == a.positions);
-    mesh.apply(plan);
+    CHECK(mesh.apply(plan).is_complete());
     const Points filled = mesh.positions(a.positions.size());
     CHECK(filled == patch.positions);
     for (const float value : mesh.attribute<float>(HOLEFILL_ELEMENT_VERTEX, 0, a.positions.size())) {
@@ -101,21 +101,21 @@ void everything_once() {
     }
     mesh.undo();
     CHECK(mesh.positions() == a.positions && mesh.triangles() == a.triangles);
-    CHECK(mesh.plan_edge(a.hole_edge[0], a.hole_edge[1]).report().summary().filled == 1);
-    CHECK(mesh.plan_vertices(loop).report().summary().filled == 1);
-    CHECK(mesh.plan_loops(std::vector<uint64_t>{id}).report().summary().filled == 1);
-    CHECK(mesh.plan_selected(holes).report().summary().filled == a.hole_count);
-    const holefill::Options simple = std::move(holefill::Options().method("fair-c1"));
-    CHECK(mesh.plan_all(simple).report().summary().filled == a.hole_count + 1);
-
-    CHECK(mesh.fill_loop(id).summary().filled == 1);
-    mesh.undo();
-    CHECK(mesh.fill_edge(a.hole_edge[0], a.hole_edge[1]).summary().filled == 1);
-    mesh.undo();
-    CHECK(mesh.fill_vertices(loop).summary().filled == 1);
-    mesh.undo();
-    CHECK(mesh.fill_loops(std::vector<uint64_t>{id}).summary().filled == 1);
-    mesh.undo();
+    const holefill::Options simple = holefill::Options().method("fair-c1");
+    const std::vector<int64_t> signed_id{static_cast<int64_t>(id)};
+    const std::pair<Target, uint64_t> targets[] = {
+        {Target::loop(id), 1},
+        {Target::edge(a.hole_edge[0], a.hole_edge[1]), 1},
+        {Target::vertices(loop), 1},
+        {Target::loops(signed_id), 1},
+        {Target::selected(holes), a.hole_count},
+        {Target::all(), a.hole_count + 1},
+    };
+    for (const auto& [target, count] : targets) {
+        CHECK(mesh.plan(target, simple).report().summary().filled == count);
+        CHECK(mesh.fill(target, simple).summary().filled == count);
+        mesh.undo();
+    }
 
     holefill::Options options;
     uint64_t calls = 0, lines = 0;
@@ -123,11 +123,12 @@ void everything_once() {
     options.set("flat.exact-limit", "60");
     options.on_progress([&](const HolefillProgress&) { return ++calls > 0; });
     options.on_log([&](HolefillLogLevel, const char* message) { lines += message[0] != '\0'; });
-    const holefill::Report report = mesh.fill_selected(holes, options);
+    const holefill::Options copy = options;
+    const holefill::Report report = mesh.fill(holes, copy);
     CHECK(report.summary().filled == a.hole_count && report.summary().kept == 1);
     CHECK(report.holes().size() == a.hole_count + 1 && calls > 0 && lines > 0);
     mesh.undo();
-    CHECK(mesh.fill_all(simple).summary().filled == a.hole_count + 1);
+    CHECK(mesh.fill(simple).summary().filled == a.hole_count + 1);
 
     holefill::Mesh moved = std::move(mesh);
     CHECK(moved.loop_count() == a.hole_count + 1);
@@ -142,13 +143,16 @@ void failures_are_exceptions() {
               holefill::Mesh::from_arrays(a.positions, Triangles{{0, 1, 1u << 30}});
           }) == HOLEFILL_STATUS_INDEX_OUT_OF_RANGE);
     holefill::Mesh mesh = holefill::Mesh::from_arrays(a.positions, a.triangles);
-    CHECK(status_of([&] { mesh.fill_loop(999); }) == HOLEFILL_STATUS_NOT_FOUND);
-    CHECK(status_of([&] { mesh.fill_all(holefill::Options().method("nonsense")); }) ==
+    CHECK(status_of([&] { (void)mesh.fill(holefill::Target::loop(999)); }) == HOLEFILL_STATUS_NOT_FOUND);
+    CHECK(status_of([&] { (void)mesh.fill(holefill::Options().method("nonsense")); }) ==
           HOLEFILL_STATUS_INVALID_ARGUMENT);
     CHECK(status_of([&] { holefill::Options().set("nonsense", "1"); }) == HOLEFILL_STATUS_NOT_FOUND);
     holefill::Options stop;
     stop.on_progress([](const HolefillProgress&) { return false; });
-    CHECK(status_of([&] { mesh.fill_all(stop); }) == HOLEFILL_STATUS_CANCELLED);
+    CHECK(status_of([&] { (void)mesh.fill(stop); }) == HOLEFILL_STATUS_CANCELLED);
+    const holefill::Report late = mesh.fill(holefill::Options().time_budget(1e-9));
+    CHECK(!late.is_complete() && late.summary().failed == a.hole_count + 1);
+    CHECK(!mesh.plan(holefill::Options().time_budget(1e-9)).report().is_complete());
     CHECK(mesh.positions() == a.positions && mesh.triangles() == a.triangles);
 }
 
@@ -172,7 +176,7 @@ void callbacks_may_throw() {
             });
             bool is_caught = false;
             try {
-                mesh.fill_all(options);
+                (void)mesh.fill(options);
             } catch (const Broken& e) {
                 is_caught = std::string(e.what()) == "from the callback";
             }
@@ -184,7 +188,7 @@ void callbacks_may_throw() {
     options.method("fair-c1").on_log([](HolefillLogLevel, const char*) { throw Broken("from the log"); });
     bool is_caught = false;
     try {
-        mesh.fill_all(options);
+        (void)mesh.fill(options);
     } catch (const Broken&) {
         is_caught = true;
     }
@@ -199,12 +203,12 @@ void polylines() {
         normals.push_back({0.6 * std::cos(t), 0.6 * std::sin(t), 0.8});
     }
     holefill::Mesh flat = holefill::Mesh::from_polyline(points);
-    CHECK(flat.fill_all().summary().filled == 1);
+    CHECK(flat.fill().summary().filled == 1);
     for (const auto& p : flat.positions()) {
         CHECK(std::abs(p[2]) < 1e-9);
     }
     holefill::Mesh cap = holefill::Mesh::from_polyline(points, normals);
-    CHECK(cap.fill_all(holefill::Options().method("fair-c1")).summary().filled == 1);
+    CHECK(cap.fill(holefill::Options().method("fair-c1")).summary().filled == 1);
     double highest = 0.0;
     for (const auto& p : cap.positions()) {
         highest = std::max(highest, p[2]);

@@ -21,8 +21,11 @@
  * where it is not allowed. Texts are UTF-8 and end with a zero byte. No memory changes hands; static texts are never freed.
  *
  * Structs that begin with `struct_size` and `version` may grow at their end. Set them up by their ..._INIT, or set all to
- * zero but these two. A library that is older than the header refuses a struct that it does not know
- * (HOLEFILL_STATUS_INVALID_STRUCT) unless all that it does not know is zero.
+ * zero but these two. A program and a library of different versions go together. What a shorter struct of the program
+ * does not have counts as zero, and is not written. What a longer struct has more must be zero where the library reads,
+ * and becomes zero where it writes. All else is HOLEFILL_STATUS_INVALID_STRUCT.
+ *
+ * Indices and ids in rows are int32_t, uint32_t, int64_t or uint64_t; none is negative.
  *
  * Threads. Every function may be called from any thread. On one mesh any number of calls that do not change it may run at
  * the same time, planning included; a call that changes it (fill, apply, undo, add_attribute) excludes all others. Nobody
@@ -59,6 +62,8 @@
 #define HOLEFILL_SELECTION_INIT \
     {(uint32_t)sizeof(HolefillSelection), HOLEFILL_SELECTION_VERSION, \
      HOLEFILL_INPUT_INIT, HOLEFILL_INPUT_INIT, 0, 0, 0}
+#define HOLEFILL_TARGET_INIT \
+    {(uint32_t)sizeof(HolefillTarget), HOLEFILL_TARGET_VERSION, 0, 0, 0, {0, 0}, 0, 0}
 #define HOLEFILL_FILL_OPTIONS_INIT \
     {(uint32_t)sizeof(HolefillFillOptions), HOLEFILL_FILL_OPTIONS_VERSION, \
      0, {0}, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}
@@ -107,6 +112,11 @@
  * The version of `HolefillSelection`.
  */
 #define HOLEFILL_SELECTION_VERSION 1
+
+/**
+ * The version of `HolefillTarget`.
+ */
+#define HOLEFILL_TARGET_VERSION 1
 
 /**
  * The version of `HolefillProgress`.
@@ -364,7 +374,7 @@ typedef struct HolefillPointOptions {
     uint32_t version;
     /**
      * The largest radius of the circle through the corners of a triangle, in units of the positions: a hole that such a
-     * circle passes through stays open. 0 takes three times the median of the neighbourhood.
+     * circle passes through stays open. 0 takes three times the median of the neighborhood.
      */
     double radius;
     /**
@@ -537,12 +547,11 @@ typedef struct HolefillSelection {
      */
     uint32_t version;
     /**
-     * If not empty, only the loops through these directed boundary edges are chosen. Rows of two vertices, `uint32_t` or
-     * `uint64_t`.
+     * If not empty, only the loops through these directed boundary edges are chosen. Rows of two vertices.
      */
     struct HolefillInput only;
     /**
-     * The loops through these directed boundary edges are not chosen. Rows of two vertices, `uint32_t` or `uint64_t`.
+     * The loops through these directed boundary edges are not chosen. Rows of two vertices.
      */
     struct HolefillInput keep;
     /**
@@ -644,6 +653,50 @@ typedef struct HolefillFillOptions {
      */
     void *log_data;
 } HolefillFillOptions;
+
+/**
+ * How a target names loops: one of the `HOLEFILL_TARGET_` constants.
+ */
+typedef uint32_t HolefillTargetKind;
+
+/**
+ * Which loops to fill or to plan. All zero but the first two fields is every open loop, and so is a null pointer in the
+ * place of the struct. Only the fields that `kind` names are read.
+ */
+typedef struct HolefillTarget {
+    /**
+     * `sizeof(HolefillTarget)`
+     */
+    uint32_t struct_size;
+    /**
+     * `HOLEFILL_TARGET_VERSION`
+     */
+    uint32_t version;
+    /**
+     * How the loops are named.
+     */
+    HolefillTargetKind kind;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+    /**
+     * The id of a loop.
+     */
+    uint64_t loop_id;
+    /**
+     * A directed boundary edge as it runs in its triangle: from vertex 0 to vertex 1.
+     */
+    uint64_t edge[2];
+    /**
+     * Rows of one loop id, or of one vertex.
+     */
+    const struct HolefillInput *ids;
+    /**
+     * Rules.
+     */
+    const struct HolefillSelection *selection;
+} HolefillTarget;
 
 /**
  * What happened to each hole. Free with `holefill_report_free`.
@@ -853,7 +906,7 @@ typedef struct HolefillPrediction {
      */
     double noise;
     /**
-     * Candidates that were compared: see `holefill_report_score`. 0 when none were, as by `curvature` or with
+     * Candidates that were compared: `holefill_report_json` lists them. 0 when none were, as by `curvature` or with
      * `auto.candidate`.
      */
     uint64_t score_count;
@@ -862,7 +915,7 @@ typedef struct HolefillPrediction {
      */
     uint64_t crease_count;
     /**
-     * Surfaces between the creases: see `holefill_report_crease_surface`.
+     * Surfaces between the creases: `holefill_report_json` lists them.
      */
     uint64_t crease_surface_count;
     /**
@@ -1010,6 +1063,11 @@ typedef struct HolefillPrediction {
 #define HOLEFILL_TYPE_U32 6
 
 /**
+ * `int64_t`; for indices and ids only
+ */
+#define HOLEFILL_TYPE_I64 7
+
+/**
  * `uint64_t`; for indices and ids only
  */
 #define HOLEFILL_TYPE_U64 8
@@ -1063,6 +1121,31 @@ typedef struct HolefillPrediction {
  * The boundary runs into an edge with more than two triangles and does not close; it cannot be filled.
  */
 #define HOLEFILL_CLASS_OPEN_CHAIN 6
+
+/**
+ * All open loops that the rules of `selection` choose. With `selection` null: all open loops.
+ */
+#define HOLEFILL_TARGET_SELECTED 0
+
+/**
+ * The loop `loop_id`.
+ */
+#define HOLEFILL_TARGET_LOOP 1
+
+/**
+ * The loop through the boundary edge `edge`.
+ */
+#define HOLEFILL_TARGET_EDGE 2
+
+/**
+ * The loops that the closed chain of the vertices `ids` consists of: see `holefill_mesh_find_vertices`.
+ */
+#define HOLEFILL_TARGET_VERTICES 3
+
+/**
+ * The loops `ids`.
+ */
+#define HOLEFILL_TARGET_LOOPS 4
 
 /**
  * A hole that was asked for stays open.
@@ -1194,14 +1277,14 @@ HOLEFILL_API HolefillStatus holefill_error_free(struct HolefillError error);
 /**
  * Makes a mesh from copies of arrays.
  *
- * `positions`: rows of three, `float` or `double`. `triangles`: rows of three vertex indices from 0, `uint32_t` or
- * `uint64_t`. Vertices and triangles keep their order, their indices and, in double precision, their bits. Non-manifold
+ * `positions`: rows of three, `float` or `double`. `triangles`: rows of three vertex indices from 0, of 32
+ * or 64 bits. Vertices and triangles keep their order, their indices and, in double precision, their bits. Non-manifold
  * edges, isolated vertices, duplicate and degenerate triangles and mixed orientation are kept: see
  * `holefill_mesh_defects`. `mesh` gets the handle.
  *
  * Time and memory are linear in the size of the mesh.
  *
- * Statuses: `NULL_POINTER`, `INVALID_ARGUMENT` (type, stride, more than about 10^9 triangles), `OVERFLOW`, `NOT_FINITE`,
+ * Statuses: `NULL_POINTER`, `INVALID_ARGUMENT` (type, stride, a negative index, more than about 10^9 triangles), `OVERFLOW`, `NOT_FINITE`,
  * `INDEX_OUT_OF_RANGE`, `OUT_OF_MEMORY`, `LIMIT`.
  */
 HOLEFILL_API
@@ -1255,9 +1338,8 @@ HolefillStatus holefill_mesh_defects(struct HolefillMesh mesh,
                                      struct HolefillError *error);
 
 /**
- * Finds the loops and indexes the mesh for the intersection tests now. The first function that needs them does it
- * otherwise, and takes that much longer: time linear in the size of the mesh. After it the time of a fill follows
- * the holes that it fills and not the mesh.
+ * Finds the loops and indexes the mesh for the intersection tests, in time linear in the size of the mesh. Otherwise the
+ * first function that needs them does it. After it the time of a fill follows the holes that it fills and not the mesh.
  */
 HOLEFILL_API
 HolefillStatus holefill_mesh_prepare(struct HolefillMesh mesh,
@@ -1276,10 +1358,10 @@ HolefillStatus holefill_mesh_read_positions(struct HolefillMesh mesh,
                                             struct HolefillError *error);
 
 /**
- * Copies the vertex indices of the triangles from `first` on: `output` has rows of three, `uint32_t` or `uint64_t`, as
- * many as are wanted.
+ * Copies the vertex indices of the triangles from `first` on: `output` has rows of three, of 32 or 64 bits, as many as
+ * are wanted.
  *
- * Statuses: `NOT_FOUND` when the mesh has fewer triangles.
+ * Statuses: `NOT_FOUND` when the mesh has fewer triangles; `LIMIT` for an index that the type has no room for.
  */
 HOLEFILL_API
 HolefillStatus holefill_mesh_read_triangles(struct HolefillMesh mesh,
@@ -1288,7 +1370,7 @@ HolefillStatus holefill_mesh_read_triangles(struct HolefillMesh mesh,
                                             struct HolefillError *error);
 
 /**
- * Makes a mesh from copies of unorganised points, such as those of a scanner: oriented, without edges of more than two
+ * Makes a mesh from copies of unorganized points, such as those of a scanner: oriented, without edges of more than two
  * triangles, and open where there are no samples. Its holes are filled like those of any mesh.
  *
  * `points`: rows of three, `float` or `double`. They are the vertices, all of them, in their order and, in double
@@ -1298,7 +1380,7 @@ HolefillStatus holefill_mesh_read_triangles(struct HolefillMesh mesh,
  * where they point. A normal that is zero is not known and is estimated, as all are without `normals`; each piece of
  * surface then faces away from its middle. Normals are not kept: `holefill_mesh_add_attribute` does that.
  *
- * `colors` may be null. Otherwise it has a row of three numbers for each point, of any type but `uint64_t`, which become
+ * `colors` may be null. Otherwise it has a row of three numbers for each point, of any type of an attribute, which become
  * the vertex attribute `color`: as if added by `holefill_mesh_add_attribute`.
  *
  * `options` may be null. `mesh` gets the handle. `summary` may be null; otherwise it gets what became of the points.
@@ -1322,7 +1404,7 @@ HolefillStatus holefill_mesh_from_points(const struct HolefillInput *points,
  * Adds an attribute to the vertices or the triangles of a mesh, and copies its values.
  *
  * `name` is UTF-8 and unique among those of the element. `values` has a row of `components` numbers for each vertex or
- * triangle, those of patches included, of any type but `uint64_t`.
+ * triangle, those of patches included, of any type of at most 32 bits or `double`.
  *
  * A fill gives values to new vertices and triangles: floating-point numbers, and whatever is called `color`, are
  * extended smoothly from the rim; three floating-point numbers called `normal` become the normals of the patch; all
@@ -1415,9 +1497,10 @@ HolefillStatus holefill_mesh_loop_info(struct HolefillMesh mesh,
 
 /**
  * Copies the vertices of a loop from position `first` on, in the direction in which its triangles run: `output` has rows
- * of one, `uint32_t` or `uint64_t`, as many as are wanted.
+ * of one, of 32 or 64 bits, as many as are wanted.
  *
- * Statuses: `NOT_FOUND` for no such loop or more vertices than it has.
+ * Statuses: `NOT_FOUND` for no such loop or more vertices than it has; `LIMIT` for an index that the type has no room
+ * for.
  */
 HOLEFILL_API
 HolefillStatus holefill_mesh_read_loop(struct HolefillMesh mesh,
@@ -1439,9 +1522,9 @@ HolefillStatus holefill_mesh_find_edge(struct HolefillMesh mesh,
                                        struct HolefillError *error);
 
 /**
- * The loops that the closed chain `vertices` consists of: rows of one, `uint32_t` or `uint64_t`, the last joined to the
- * first. It may start anywhere and run either way. Where it visits a vertex twice it passes through more than one loop:
- * loops are cut where the boundary touches itself.
+ * The loops that the closed chain `vertices` consists of: rows of one, of 32 or 64 bits, the last joined to the first.
+ * It may start anywhere and run either way. Where it visits a vertex twice it passes through more than one loop: loops
+ * are cut where the boundary touches itself.
  *
  * `ids` gets the ids, ascending, and `count` their number, also when they do not fit into `capacity`. With `ids` null
  * and `capacity` 0 only the number is written.
@@ -1565,67 +1648,36 @@ HOLEFILL_API const char *holefill_parameter_allowed(uint64_t index);
 HOLEFILL_API const char *holefill_parameter_default(uint64_t index);
 
 /**
- * Fills the hole of the loop `loop_id`. Everything that was in the mesh stays bit for bit and keeps its index; new
- * vertices and triangles are appended, oriented like those round the hole.
+ * Fills holes. Everything that was in the mesh stays bit for bit and keeps its index. New vertices and triangles are
+ * appended, oriented like those round the hole.
  *
- * `options` may be null. `report` may be null; otherwise it gets a report with one entry, which says what was appended.
+ * `target` says which holes; null is every open loop. They are filled in parallel and appended in the order of the ids of
+ * their loops. An island is filled together with the loop that it lies in, if both are asked for. A hole that stays open
+ * does not keep the others from being filled.
  *
- * Statuses: `INCOMPLETE` when the hole stays open: nothing was changed, and the report says why; `NOT_FOUND`;
- * `INVALID_ARGUMENT` for a loop that was closed before or an option that is not allowed; `TOPOLOGY` for a loop that
- * cannot be filled; `CANCELLED`; `BUSY`. With any but `OK` and `INCOMPLETE` nothing was changed and no report written.
+ * `options` may be null. `report` may be null; otherwise it gets what happened: an entry for each loop that was named, or,
+ * for `HOLEFILL_TARGET_SELECTED`, for every loop of the mesh.
+ *
+ * Statuses: `INCOMPLETE` when a hole stays open that was asked for: the report says why; `NOT_FOUND` for a loop, an edge
+ * or a chain that the mesh does not have; `INVALID_ARGUMENT` for a loop that was closed before, an option that is not
+ * allowed, an unknown kind of target or an edge of the rules that is on no loop; `TOPOLOGY` for a loop that cannot be
+ * filled; `CANCELLED`; `BUSY`. With any but `OK` and `INCOMPLETE` nothing was changed and no report written.
  */
 HOLEFILL_API
-HolefillStatus holefill_mesh_fill_loop(struct HolefillMesh mesh,
-                                       uint64_t loop_id,
-                                       const struct HolefillFillOptions *options,
-                                       struct HolefillReport *report,
-                                       struct HolefillError *error);
+HolefillStatus holefill_mesh_fill(struct HolefillMesh mesh,
+                                  const struct HolefillTarget *target,
+                                  const struct HolefillFillOptions *options,
+                                  struct HolefillReport *report,
+                                  struct HolefillError *error);
 
 /**
- * As `holefill_mesh_fill_loop`, for the loop through the boundary edge from vertex `from` to vertex `to`, as it runs in
- * its triangle.
+ * Fills every open loop with the default options: `holefill_mesh_fill` with null for everything else.
+ *
+ * Statuses: as `holefill_mesh_fill`.
  */
 HOLEFILL_API
-HolefillStatus holefill_mesh_fill_edge(struct HolefillMesh mesh,
-                                       uint64_t from,
-                                       uint64_t to,
-                                       const struct HolefillFillOptions *options,
-                                       struct HolefillReport *report,
-                                       struct HolefillError *error);
-
-/**
- * As `holefill_mesh_fill_loops`, for the loops that the closed chain `vertices` consists of: see
- * `holefill_mesh_find_vertices`.
- */
-HOLEFILL_API
-HolefillStatus holefill_mesh_fill_vertices(struct HolefillMesh mesh,
-                                           const struct HolefillInput *vertices,
-                                           const struct HolefillFillOptions *options,
-                                           struct HolefillReport *report,
-                                           struct HolefillError *error);
-
-/**
- * As `holefill_mesh_fill_loop`, for several loops: `loops` has rows of one id, `uint32_t` or `uint64_t`. They are filled
- * in parallel and appended in the order of their ids; an island together with the loop that it lies in, if both are
- * named. The report has an entry for each loop. A hole that stays open does not keep the others from being filled.
- */
-HOLEFILL_API
-HolefillStatus holefill_mesh_fill_loops(struct HolefillMesh mesh,
-                                        const struct HolefillInput *loops,
-                                        const struct HolefillFillOptions *options,
-                                        struct HolefillReport *report,
-                                        struct HolefillError *error);
-
-/**
- * As `holefill_mesh_fill_loops`, for all open loops that the rules choose; with `selection` null for all open loops. The
- * report has an entry for every loop of the mesh.
- */
-HOLEFILL_API
-HolefillStatus holefill_mesh_fill_selected(struct HolefillMesh mesh,
-                                           const struct HolefillSelection *selection,
-                                           const struct HolefillFillOptions *options,
-                                           struct HolefillReport *report,
-                                           struct HolefillError *error);
+HolefillStatus holefill_mesh_fill_all(struct HolefillMesh mesh,
+                                      struct HolefillError *error);
 
 /**
  * Takes the last fill or apply back that appended something: its vertices, triangles and attribute values are removed,
@@ -1638,64 +1690,22 @@ HolefillStatus holefill_mesh_undo(struct HolefillMesh mesh,
                                   struct HolefillError *error);
 
 /**
- * Makes the patch for the loop `loop_id` and leaves the mesh as it is. The patch can be read, in the mesh's vertex
- * indices, and applied. Nothing of the mesh is copied, and other threads may read the mesh meanwhile.
+ * Makes patches and leaves the mesh as it is. The patches can be read, in the mesh's vertex indices, and applied. Nothing
+ * of the mesh is copied, and other threads may read the mesh meanwhile.
  *
- * `options` may be null. `plan` gets the handle.
+ * `target` and `options` as in `holefill_mesh_fill`. `plan` gets the handle.
  *
- * Statuses: as `holefill_mesh_fill_loop`; with `INCOMPLETE` there is a plan without a patch, whose report says why.
+ * Each patch is checked against the mesh, but not against the other patches of the plan: that is done when the plan is
+ * applied. To get patches that fit each other without keeping them in the mesh, fill, read what was appended, and undo.
+ *
+ * Statuses: as `holefill_mesh_fill`. With `INCOMPLETE` there is a plan that lacks patches, and its report says why.
  */
 HOLEFILL_API
-HolefillStatus holefill_mesh_plan_loop(struct HolefillMesh mesh,
-                                       uint64_t loop_id,
-                                       const struct HolefillFillOptions *options,
-                                       struct HolefillPlan *plan,
-                                       struct HolefillError *error);
-
-/**
- * As `holefill_mesh_plan_loop`, for the loop through the boundary edge from vertex `from` to vertex `to`, as it runs in
- * its triangle.
- */
-HOLEFILL_API
-HolefillStatus holefill_mesh_plan_edge(struct HolefillMesh mesh,
-                                       uint64_t from,
-                                       uint64_t to,
-                                       const struct HolefillFillOptions *options,
-                                       struct HolefillPlan *plan,
-                                       struct HolefillError *error);
-
-/**
- * As `holefill_mesh_plan_loops`, for the loops that the closed chain `vertices` consists of: see
- * `holefill_mesh_find_vertices`.
- */
-HOLEFILL_API
-HolefillStatus holefill_mesh_plan_vertices(struct HolefillMesh mesh,
-                                           const struct HolefillInput *vertices,
-                                           const struct HolefillFillOptions *options,
-                                           struct HolefillPlan *plan,
-                                           struct HolefillError *error);
-
-/**
- * As `holefill_mesh_plan_loop`, for several loops: `loops` has rows of one id, `uint32_t` or `uint64_t`. Each patch is
- * checked against the mesh, but not against the other patches of the plan: that is done when the plan is applied.
- * To get patches that fit each other without keeping them in the mesh, fill, read what was appended, and undo.
- */
-HOLEFILL_API
-HolefillStatus holefill_mesh_plan_loops(struct HolefillMesh mesh,
-                                        const struct HolefillInput *loops,
-                                        const struct HolefillFillOptions *options,
-                                        struct HolefillPlan *plan,
-                                        struct HolefillError *error);
-
-/**
- * As `holefill_mesh_plan_loops`, for all open loops that the rules choose; with `selection` null for all open loops.
- */
-HOLEFILL_API
-HolefillStatus holefill_mesh_plan_selected(struct HolefillMesh mesh,
-                                           const struct HolefillSelection *selection,
-                                           const struct HolefillFillOptions *options,
-                                           struct HolefillPlan *plan,
-                                           struct HolefillError *error);
+HolefillStatus holefill_mesh_plan(struct HolefillMesh mesh,
+                                  const struct HolefillTarget *target,
+                                  const struct HolefillFillOptions *options,
+                                  struct HolefillPlan *plan,
+                                  struct HolefillError *error);
 
 /**
  * Appends the patches of a plan to its mesh, in the order of the loops. Patches are checked against each other and
@@ -1749,11 +1759,11 @@ HolefillStatus holefill_plan_read_positions(struct HolefillPlan plan,
                                             struct HolefillError *error);
 
 /**
- * Copies the triangles of the patch for a loop, from its `first` on: `output` has rows of three, `uint32_t` or `uint64_t`,
- * as many as are wanted. Indices below the number of vertices of the mesh are those of the mesh; the first new vertex
- * has the index `first_vertex` of `holefill_plan_patch`.
+ * Copies the triangles of the patch for a loop, from its `first` on: `output` has rows of three, of 32 or 64 bits, as
+ * many as are wanted. Indices below the number of vertices of the mesh are those of the mesh. The first new vertex has
+ * the index `first_vertex` of `holefill_plan_patch`.
  *
- * Statuses: `NOT_FOUND`.
+ * Statuses: `NOT_FOUND`; `LIMIT` for an index that the type has no room for.
  */
 HOLEFILL_API
 HolefillStatus holefill_plan_read_triangles(struct HolefillPlan plan,
@@ -1768,6 +1778,22 @@ HolefillStatus holefill_plan_read_triangles(struct HolefillPlan plan,
 HOLEFILL_API HolefillStatus holefill_plan_free(struct HolefillPlan plan);
 
 /**
+ * The whole report as JSON: one object, UTF-8. `buffer`, `capacity` and `length` as in `holefill_error_message`.
+ *
+ * `holes` is a list with an entry for each hole, in the form of `holefill fill --report`: with the methods that were tried,
+ * the candidate surfaces that were compared, and their scores. `index_seconds` and `fill_seconds` are those of
+ * `HolefillSummary`. Later versions may add keys.
+ *
+ * Statuses: `BUFFER_TOO_SMALL`.
+ */
+HOLEFILL_API
+HolefillStatus holefill_report_json(struct HolefillReport report,
+                                    char *buffer,
+                                    uint64_t capacity,
+                                    uint64_t *length,
+                                    struct HolefillError *error);
+
+/**
  * What happened to all holes.
  */
 HOLEFILL_API
@@ -1777,8 +1803,6 @@ HolefillStatus holefill_report_summary(struct HolefillReport report,
 
 /**
  * What happened to one hole: entry `index` of the report, in the order of the loops' ids.
- *
- * A fill of chosen loops has an entry for each of them, a fill by rules one for every loop of the mesh.
  *
  * Statuses: `NOT_FOUND`.
  */
@@ -1819,11 +1843,6 @@ HolefillStatus holefill_report_tried(struct HolefillReport report,
                                      struct HolefillError *error);
 
 /**
- * Frees a report. The handle 0 is allowed.
- */
-HOLEFILL_API HolefillStatus holefill_report_free(struct HolefillReport report);
-
-/**
  * How the missing surface was predicted for the filled hole of entry `index`. The methods `auto` and `curvature` predict
  * one; whether it stands is said by the hole's `method`. An island has none: it belongs to the hole that it lies in.
  *
@@ -1836,46 +1855,9 @@ HolefillStatus holefill_report_prediction(struct HolefillReport report,
                                           struct HolefillError *error);
 
 /**
- * The `place`-th candidate surface that was compared for the hole of entry `index`: its name as static text that is
- * never freed, and its score, which is about the distance in mean rim edges at which the candidate misses rings round
- * the hole that it has not seen. The smallest is best; `docs/methods/auto.md` says what enters it.
- *
- * Statuses: `NOT_FOUND`, also when the entry has no prediction.
+ * Frees a report. The handle 0 is allowed.
  */
-HOLEFILL_API
-HolefillStatus holefill_report_score(struct HolefillReport report,
-                                     uint64_t index,
-                                     uint64_t place,
-                                     const char **candidate,
-                                     double *score,
-                                     struct HolefillError *error);
-
-/**
- * The `place`-th surface between the creases in the patch for the hole of entry `index`, in the order in which the rim
- * meets them: its name as static text that is never freed.
- *
- * Statuses: `NOT_FOUND`, also when the entry has no prediction.
- */
-HOLEFILL_API
-HolefillStatus holefill_report_crease_surface(struct HolefillReport report,
-                                              uint64_t index,
-                                              uint64_t place,
-                                              const char **candidate,
-                                              struct HolefillError *error);
-
-/**
- * Why creases that run into the hole of entry `index` were not continued; empty when they were, or when there are none.
- * `buffer`, `capacity` and `length` as in `holefill_error_message`.
- *
- * Statuses: `NOT_FOUND`, also when the entry has no prediction.
- */
-HOLEFILL_API
-HolefillStatus holefill_report_without_creases(struct HolefillReport report,
-                                               uint64_t index,
-                                               char *buffer,
-                                               uint64_t capacity,
-                                               uint64_t *length,
-                                               struct HolefillError *error);
+HOLEFILL_API HolefillStatus holefill_report_free(struct HolefillReport report);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -6,8 +6,10 @@
  * Errors. A function that can fail has the return type Result<T>. That is T, and failures are thrown as
  * holefill::Exception; unless HOLEFILL_NO_EXCEPTIONS is defined before the header is included: then it is
  * holefill::Expected<T>, which holds a value or a Failure, and the header compiles without exceptions. All
- * translation units of a program must agree on that macro. A hole that stays open is no failure of the call: the report
- * says so. std::bad_alloc may be thrown besides.
+ * translation units of a program must agree on that macro. std::bad_alloc may be thrown besides.
+ *
+ * A hole that stays open is no failure of the call. Report::is_complete() and Plan::is_complete() say whether everything
+ * was done that was asked for. The compiler warns when a report or a plan is not looked at.
  *
  * Callbacks may throw, from any thread: the call is stopped, the mesh stays as it was, and the exception is thrown
  * again by the call.
@@ -116,8 +118,10 @@ constexpr HolefillType scalar_type() {
     } else {
         static_assert(std::is_integral_v<T> && !std::is_same_v<T, bool>, "not a type that holefill reads");
         if constexpr (std::is_signed_v<T>) {
-            static_assert(sizeof(T) <= 4, "signed integers have at most 32 bits");
-            return sizeof(T) == 1 ? HOLEFILL_TYPE_I8 : sizeof(T) == 2 ? HOLEFILL_TYPE_I16 : HOLEFILL_TYPE_I32;
+            return sizeof(T) == 1   ? HOLEFILL_TYPE_I8
+                   : sizeof(T) == 2 ? HOLEFILL_TYPE_I16
+                   : sizeof(T) == 4 ? HOLEFILL_TYPE_I32
+                                    : HOLEFILL_TYPE_I64;
         } else {
             return sizeof(T) == 1   ? HOLEFILL_TYPE_U8
                    : sizeof(T) == 2 ? HOLEFILL_TYPE_U16
@@ -125,6 +129,21 @@ constexpr HolefillType scalar_type() {
                                     : HOLEFILL_TYPE_U64;
         }
     }
+}
+
+/* A text or list of unknown length: `read(buffer, capacity, &length)` is called for the length and for the elements. A
+ * text needs room for one more. */
+template <class List, class Read>
+HolefillStatus read_list(List& list, Read read) {
+    constexpr std::size_t END = std::is_same_v<List, std::string> ? 1 : 0;
+    uint64_t length = 0;
+    HolefillStatus status = read(static_cast<typename List::value_type*>(nullptr), uint64_t{0}, &length);
+    if (status == HOLEFILL_STATUS_OK && length > 0) {
+        list.resize(static_cast<std::size_t>(length) + END);
+        status = read(list.data(), uint64_t{list.size()}, &length);
+        list.resize(status == HOLEFILL_STATUS_OK ? static_cast<std::size_t>(length) : 0);
+    }
+    return status;
 }
 
 /* The error object of one call. */
@@ -139,12 +158,9 @@ public:
 
     Failure failure(HolefillStatus status) const {
         Failure failure{status, {}};
-        uint64_t length = 0;
-        if (error_.id != 0 && holefill_error_message(error_, nullptr, 0, &length) == HOLEFILL_STATUS_OK) {
-            failure.message.resize(static_cast<std::size_t>(length) + 1);
-            holefill_error_message(error_, failure.message.data(), length + 1, &length);
-            failure.message.resize(static_cast<std::size_t>(length));
-        }
+        read_list(failure.message, [&](char* buffer, uint64_t capacity, uint64_t* length) {
+            return holefill_error_message(error_, buffer, capacity, length);
+        });
         if (failure.message.empty()) {
             failure.message = holefill_status_message(status);
         }
@@ -171,7 +187,33 @@ Result<T> result(HolefillStatus status, const ErrorObject& error, T&& value) {
 #endif
 }
 
-inline Result<void> result(HolefillStatus status, const ErrorObject& error) {
+/* What `function(value, error)` makes of a value, if its status is a success. */
+template <class T, class Function>
+Result<T> get(T value, Function function) {
+    ErrorObject error;
+    const HolefillStatus status = function(value, error.get());
+    return result(status, error, std::move(value));
+}
+
+/* What the C function `function(arguments..., &value, error)` writes. */
+template <class T, class Function, class... Arguments>
+Result<T> query(T value, Function function, Arguments... arguments) {
+    return get(std::move(value), [&](T& place, HolefillError* error) { return function(arguments..., &place, error); });
+}
+
+/* The text or list that the C function `function(arguments..., buffer, capacity, &length, error)` writes. */
+template <class List, class Function, class... Arguments>
+HolefillStatus read(List& list, HolefillError* error, Function function, Arguments... arguments) {
+    return read_list(list, [&](auto* buffer, uint64_t capacity, uint64_t* length) {
+        return function(arguments..., buffer, capacity, length, error);
+    });
+}
+
+/* Nothing, if the status of the C function `function(arguments..., error)` is a success. */
+template <class Function, class... Arguments>
+Result<void> run(Function function, Arguments... arguments) {
+    ErrorObject error;
+    const HolefillStatus status = function(arguments..., error.get());
     if (!is_success(status)) {
 #ifndef HOLEFILL_NO_EXCEPTIONS
         throw Exception(error.failure(status));
@@ -180,20 +222,6 @@ inline Result<void> result(HolefillStatus status, const ErrorObject& error) {
 #endif
     }
     return Result<void>();
-}
-
-/* Text of unknown length: `read(buffer, capacity, &length)` is called once for the length and once for the text. */
-template <class Read>
-HolefillStatus read_text(std::string& text, Read read) {
-    uint64_t length = 0;
-    HolefillStatus status = read(nullptr, 0, &length);
-    if (status != HOLEFILL_STATUS_OK) {
-        return status;
-    }
-    text.resize(static_cast<std::size_t>(length) + 1);
-    status = read(text.data(), length + 1, &length);
-    text.resize(status == HOLEFILL_STATUS_OK ? static_cast<std::size_t>(length) : 0);
-    return status;
 }
 
 class Call;
@@ -253,9 +281,65 @@ struct Selection {
     uint64_t max_edges = 0;
     double max_perimeter = 0.0;
     uint64_t keep_largest = 0;
+
+    /* As C has it: points into this one. */
+    HolefillSelection raw() const {
+        HolefillSelection raw = HOLEFILL_SELECTION_INIT;
+        raw.only = *Rows<2>(only).get();
+        raw.keep = *Rows<2>(keep).get();
+        raw.max_edges = max_edges;
+        raw.max_perimeter = max_perimeter;
+        raw.keep_largest = keep_largest;
+        return raw;
+    }
 };
 
-/* What is filled how. Parameters that have names are set with `set`; holefill_parameter_name lists them. */
+/* Which loops are filled or planned; every open loop if nothing is said. Rows are the caller's memory. */
+class Target {
+public:
+    Target() = default;
+    Target(Selection selection) : selection_(std::move(selection)) {}
+
+    static Target all() { return {}; }
+    static Target selected(Selection selection) { return Target(std::move(selection)); }
+    static Target loop(uint64_t id) {
+        Target target(HOLEFILL_TARGET_LOOP);
+        target.raw_.loop_id = id;
+        return target;
+    }
+    /* The loop through a boundary edge, as it runs in its triangle. */
+    static Target edge(uint64_t from, uint64_t to) {
+        Target target(HOLEFILL_TARGET_EDGE);
+        target.raw_.edge[0] = from;
+        target.raw_.edge[1] = to;
+        return target;
+    }
+    /* The loops that a closed chain of vertices consists of. */
+    static Target vertices(const Rows<1>& vertices) { return Target(HOLEFILL_TARGET_VERTICES, *vertices.get()); }
+    static Target loops(const Rows<1>& ids) { return Target(HOLEFILL_TARGET_LOOPS, *ids.get()); }
+
+    /* Calls `function` with the target as C has it. */
+    template <class Function>
+    auto with(Function function) const {
+        const HolefillSelection selection = selection_.raw();
+        HolefillTarget target = raw_;
+        target.ids = &ids_;
+        target.selection = &selection;
+        return function(&target);
+    }
+
+private:
+    explicit Target(HolefillTargetKind kind, const HolefillInput& ids = {}) : ids_(ids) {
+        raw_.kind = kind;
+    }
+
+    HolefillTarget raw_ = HOLEFILL_TARGET_INIT;
+    HolefillInput ids_ = HOLEFILL_INPUT_INIT;
+    Selection selection_;
+};
+
+/* What is filled how. Parameters that have names are set with `set`; holefill_parameter_name lists them. Options can be
+ * copied, and set in one expression: Options options = Options().method("flat").threads(1); */
 class Options {
 public:
     /* Returns false to stop. */
@@ -263,62 +347,50 @@ public:
     using Log = std::function<void(HolefillLogLevel, const char*)>;
 
     /* `auto` if it is never called. An unknown name is a failure of the call that the options are given to. */
-    Options& method(std::string name) {
-        method_ = std::move(name);
-        return *this;
-    }
-    Options& seed(uint64_t seed) noexcept {
-        raw_.seed = seed;
-        return *this;
-    }
+    Options& method(std::string name) { return method_ = std::move(name), *this; }
+    Options& seed(uint64_t seed) noexcept { return raw_.seed = seed, *this; }
     /* In seconds. */
-    Options& time_budget(double seconds) noexcept {
-        raw_.time_budget = seconds;
-        return *this;
-    }
-    Options& density(double density) noexcept {
-        raw_.density = density;
-        return *this;
-    }
-    Options& max_new_vertices(uint64_t count) noexcept {
-        raw_.max_new_vertices = count;
-        return *this;
-    }
+    Options& time_budget(double seconds) noexcept { return raw_.time_budget = seconds, *this; }
+    Options& density(double density) noexcept { return raw_.density = density, *this; }
+    Options& max_new_vertices(uint64_t count) noexcept { return raw_.max_new_vertices = count, *this; }
     /* 0: as many as there are processors; 1: the calling thread. */
-    Options& threads(uint32_t count) noexcept {
-        raw_.threads = count;
-        return *this;
-    }
-    Options& on_progress(Progress progress) {
-        progress_ = std::move(progress);
-        return *this;
-    }
+    Options& threads(uint32_t count) noexcept { return raw_.threads = count, *this; }
+    Options& on_progress(Progress progress) { return progress_ = std::move(progress), *this; }
     Options& on_log(Log log, HolefillLogLevel level = HOLEFILL_LOG_INFO) {
-        log_ = std::move(log);
-        raw_.log_level = level;
-        return *this;
+        return log_ = std::move(log), raw_.log_level = level, *this;
     }
     Result<void> set(const char* name, const char* value) {
-        detail::ErrorObject error;
-        HolefillStatus status = HOLEFILL_STATUS_OK;
-        if (parameters_.get().id == 0) {
-            HolefillParameters handle{};
-            status = holefill_parameters_new(&handle, error.get());
-            parameters_ = Parameters(handle);
-        }
-        if (status == HOLEFILL_STATUS_OK) {
-            status = holefill_parameters_set(parameters_.get(), name, value, error.get());
-        }
-        return detail::result(status, error);
+        return detail::run([&](HolefillError* error) {
+            Parameters parameters;
+            HolefillStatus status = make(parameters, error);
+            if (status == HOLEFILL_STATUS_OK) {
+                status = holefill_parameters_set(parameters.get(), name, value, error);
+            }
+            if (status == HOLEFILL_STATUS_OK) {
+                named_.emplace_back(name, value);
+            }
+            return status;
+        });
     }
 
 private:
     friend class detail::Call;
     using Parameters = detail::Owned<HolefillParameters, holefill_parameters_free>;
 
+    /* Makes a set of the parameters that were set. */
+    HolefillStatus make(Parameters& parameters, HolefillError* error) const {
+        HolefillParameters handle{};
+        HolefillStatus status = holefill_parameters_new(&handle, error);
+        parameters = Parameters(handle);
+        for (std::size_t i = 0; status == HOLEFILL_STATUS_OK && i < named_.size(); ++i) {
+            status = holefill_parameters_set(handle, named_[i].first.c_str(), named_[i].second.c_str(), error);
+        }
+        return status;
+    }
+
     HolefillFillOptions raw_ = HOLEFILL_FILL_OPTIONS_INIT;
     std::string method_;
-    Parameters parameters_;
+    std::vector<std::pair<std::string, std::string>> named_;
     Progress progress_;
     Log log_;
 };
@@ -401,10 +473,10 @@ private:
 /* One call with options. */
 class Call : public Callbacks {
 public:
-    explicit Call(const Options& options) : Callbacks(options.progress_, options.log_), raw_(options.raw_) {
+    explicit Call(const Options& options)
+        : Callbacks(options.progress_, options.log_), options_(options), raw_(options.raw_) {
         Callbacks* callbacks = this;
         raw_.method = options.method_.empty() ? nullptr : options.method_.c_str();
-        raw_.parameters = options.parameters_.get();
         if (options.progress_ || options.log_) {
             raw_.progress = &Callbacks::progress;
             raw_.progress_data = callbacks;
@@ -414,10 +486,20 @@ public:
             raw_.log_data = callbacks;
         }
     }
-
-    const HolefillFillOptions* get() const noexcept { return &raw_; }
+    /* Calls `function` with the options as C has them. */
+    template <class Function>
+    HolefillStatus run(HolefillError* error, Function function) {
+        HolefillStatus status = options_.named_.empty() ? HOLEFILL_STATUS_OK : options_.make(parameters_, error);
+        if (status == HOLEFILL_STATUS_OK) {
+            raw_.parameters = parameters_.get();
+            status = function(&raw_);
+        }
+        return status;
+    }
 
 private:
+    const Options& options_;
+    Options::Parameters parameters_;
     HolefillFillOptions raw_;
 };
 
@@ -429,109 +511,76 @@ struct Attempt {
     std::string reason;
 };
 
-/* A candidate surface and its score; see holefill_report_score. */
-struct Score {
-    std::string candidate;
-    double value = 0.0;
-};
-
-/* How the missing surface was predicted: the fields of HolefillPrediction, the lists and the text. */
-struct Prediction : HolefillPrediction {
-    std::vector<Score> scores;
-    std::vector<std::string> crease_surfaces;
-    std::string without_creases;
-};
-
 /* What happened to one hole: the fields of HolefillHole, the texts, and the prediction if a method made one. */
 struct Hole : HolefillHole {
     std::string reason;
     std::vector<Attempt> tried;
-    std::optional<Prediction> prediction;
+    std::optional<HolefillPrediction> prediction;
 };
 
 /* What happened to all holes of a call. */
-class Report {
+class [[nodiscard]] Report {
 public:
-    explicit Report(HolefillReport handle) noexcept : handle_(handle) {}
+    explicit Report(HolefillReport handle, HolefillStatus status = HOLEFILL_STATUS_OK) noexcept
+        : handle_(handle), status_(status) {}
 
+    /* Whether every hole that was asked for is closed, or has a patch. */
+    bool is_complete() const noexcept { return status_ != HOLEFILL_STATUS_INCOMPLETE; }
     Result<HolefillSummary> summary() const {
-        detail::ErrorObject error;
-        HolefillSummary summary = HOLEFILL_SUMMARY_INIT;
-        const HolefillStatus status = holefill_report_summary(handle_.get(), &summary, error.get());
-        return detail::result(status, error, std::move(summary));
+        return detail::query<HolefillSummary>(HOLEFILL_SUMMARY_INIT, holefill_report_summary, get());
     }
     /* Entry `index`, in the order of the loops' ids. */
     Result<Hole> hole(uint64_t index) const {
-        detail::ErrorObject error;
-        Hole hole{HOLEFILL_HOLE_INIT, {}, {}, {}};
-        const HolefillStatus status = read_hole(index, hole, error);
-        return detail::result(status, error, std::move(hole));
+        return detail::get(Hole{HOLEFILL_HOLE_INIT, {}, {}, {}},
+                           [&](auto& hole, auto* error) { return read_hole(index, hole, error); });
     }
     Result<std::vector<Hole>> holes() const {
-        detail::ErrorObject error;
-        HolefillSummary summary = HOLEFILL_SUMMARY_INIT;
-        HolefillStatus status = holefill_report_summary(handle_.get(), &summary, error.get());
-        std::vector<Hole> holes;
-        for (uint64_t i = 0; status == HOLEFILL_STATUS_OK && i < summary.hole_count; ++i) {
-            holes.push_back(Hole{HOLEFILL_HOLE_INIT, {}, {}, {}});
-            status = read_hole(i, holes.back(), error);
-        }
-        return detail::result(status, error, std::move(holes));
+        return detail::get(std::vector<Hole>(), [&](auto& holes, auto* error) {
+            HolefillSummary summary = HOLEFILL_SUMMARY_INIT;
+            HolefillStatus status = holefill_report_summary(get(), &summary, error);
+            for (uint64_t i = 0; status == HOLEFILL_STATUS_OK && i < summary.hole_count; ++i) {
+                holes.push_back(Hole{HOLEFILL_HOLE_INIT, {}, {}, {}});
+                status = read_hole(i, holes.back(), error);
+            }
+            return status;
+        });
+    }
+    /* Everything, as holefill_report_json says. */
+    Result<std::string> json() const {
+        return detail::get(std::string(), [&](auto& text, auto* error) {
+            return detail::read(text, error, holefill_report_json, get());
+        });
     }
     HolefillReport get() const noexcept { return handle_.get(); }
 
 private:
-    HolefillStatus read_hole(uint64_t index, Hole& hole, detail::ErrorObject& error) const {
-        HolefillStatus status = holefill_report_hole(handle_.get(), index, &hole, error.get());
-        if (status != HOLEFILL_STATUS_OK) {
-            return status;
+    HolefillStatus read_hole(uint64_t index, Hole& hole, HolefillError* error) const {
+        HolefillStatus status = holefill_report_hole(get(), index, &hole, error);
+        if (status == HOLEFILL_STATUS_OK) {
+            status = detail::read(hole.reason, error, holefill_report_reason, get(), index);
         }
-        status = detail::read_text(hole.reason, [&](char* buffer, uint64_t capacity, uint64_t* length) {
-            return holefill_report_reason(handle_.get(), index, buffer, capacity, length, error.get());
-        });
         for (uint32_t k = 0; status == HOLEFILL_STATUS_OK && k < hole.tried_count; ++k) {
             Attempt attempt;
             const char* method = nullptr;
-            status = detail::read_text(attempt.reason, [&](char* buffer, uint64_t capacity, uint64_t* length) {
-                return holefill_report_tried(handle_.get(), index, k, &method, buffer, capacity, length,
-                                             error.get());
-            });
+            status = detail::read(attempt.reason, error, holefill_report_tried, get(), index, k, &method);
             attempt.method = method ? method : "";
             hole.tried.push_back(std::move(attempt));
         }
-        return status == HOLEFILL_STATUS_OK ? read_prediction(index, hole, error) : status;
-    }
-    HolefillStatus read_prediction(uint64_t index, Hole& hole, detail::ErrorObject& error) const {
-        Prediction found{HOLEFILL_PREDICTION_INIT, {}, {}, {}};
-        /* Most methods predict nothing, which is no error. */
-        HolefillStatus status = holefill_report_prediction(handle_.get(), index, &found, error.get());
-        if (status == HOLEFILL_STATUS_NOT_FOUND) {
-            return HOLEFILL_STATUS_OK;
-        }
-        const char* candidate = nullptr;
-        for (uint64_t k = 0; status == HOLEFILL_STATUS_OK && k < found.score_count; ++k) {
-            double score = 0.0;
-            status = holefill_report_score(handle_.get(), index, k, &candidate, &score, error.get());
-            if (status == HOLEFILL_STATUS_OK) {
-                found.scores.push_back({candidate, score});
-            }
-        }
-        for (uint64_t k = 0; status == HOLEFILL_STATUS_OK && k < found.crease_surface_count; ++k) {
-            status = holefill_report_crease_surface(handle_.get(), index, k, &candidate, error.get());
-            if (status == HOLEFILL_STATUS_OK) {
-                found.crease_surfaces.push_back(candidate);
-            }
-        }
         if (status == HOLEFILL_STATUS_OK) {
-            status = detail::read_text(found.without_creases, [&](char* buffer, uint64_t capacity, uint64_t* length) {
-                return holefill_report_without_creases(handle_.get(), index, buffer, capacity, length, error.get());
-            });
+            HolefillPrediction found = HOLEFILL_PREDICTION_INIT;
+            status = holefill_report_prediction(get(), index, &found, nullptr);
+            if (status == HOLEFILL_STATUS_OK) {
+                hole.prediction = found;
+            } else if (status == HOLEFILL_STATUS_NOT_FOUND) {
+                /* Most methods predict nothing, which is no error. */
+                status = HOLEFILL_STATUS_OK;
+            }
         }
-        hole.prediction = std::move(found);
         return status;
     }
 
     detail::Owned<HolefillReport, holefill_report_free> handle_;
+    HolefillStatus status_;
 };
 
 /* The patch for one hole. In `triangles` indices below `first_vertex` are vertices of the mesh (or of the patches
@@ -543,39 +592,45 @@ struct Patch {
 };
 
 /* Patches for chosen holes, not yet part of the mesh. */
-class Plan {
+class [[nodiscard]] Plan {
 public:
-    explicit Plan(HolefillPlan handle) noexcept : handle_(handle) {}
+    explicit Plan(HolefillPlan handle, HolefillStatus status = HOLEFILL_STATUS_OK) noexcept
+        : handle_(handle), status_(status) {}
 
+    /* Whether every hole that was asked for has a patch. */
+    bool is_complete() const noexcept { return status_ != HOLEFILL_STATUS_INCOMPLETE; }
     Result<Report> report() const {
-        detail::ErrorObject error;
-        HolefillReport report{};
-        const HolefillStatus status = holefill_plan_report(handle_.get(), &report, error.get());
-        return detail::result(status, error, Report(report));
+        return detail::get(Report({}, status_), [&](auto& report, auto* error) {
+            HolefillReport handle{};
+            const HolefillStatus status = holefill_plan_report(get(), &handle, error);
+            report = Report(handle, status_);
+            return status;
+        });
     }
     /* The patch for a loop. Fails with HOLEFILL_STATUS_NOT_FOUND when the plan has none: its report says why. */
     Result<Patch> patch(uint64_t loop_id) const {
-        detail::ErrorObject error;
-        HolefillPatchInfo info = HOLEFILL_PATCH_INFO_INIT;
-        HolefillStatus status = holefill_plan_patch(handle_.get(), loop_id, &info, error.get());
-        Patch patch;
-        if (status == HOLEFILL_STATUS_OK) {
-            patch.first_vertex = info.first_vertex;
-            patch.positions.resize(static_cast<std::size_t>(info.vertex_count));
-            const HolefillOutput output{patch.positions.data(), info.vertex_count, 0, HOLEFILL_TYPE_F64, 0};
-            status = holefill_plan_read_positions(handle_.get(), loop_id, 0, &output, error.get());
-        }
-        if (status == HOLEFILL_STATUS_OK) {
-            patch.triangles.resize(static_cast<std::size_t>(info.triangle_count));
-            const HolefillOutput output{patch.triangles.data(), info.triangle_count, 0, HOLEFILL_TYPE_U64, 0};
-            status = holefill_plan_read_triangles(handle_.get(), loop_id, 0, &output, error.get());
-        }
-        return detail::result(status, error, std::move(patch));
+        return detail::get(Patch(), [&](auto& patch, auto* error) {
+            HolefillPatchInfo info = HOLEFILL_PATCH_INFO_INIT;
+            HolefillStatus status = holefill_plan_patch(get(), loop_id, &info, error);
+            if (status == HOLEFILL_STATUS_OK) {
+                patch.first_vertex = info.first_vertex;
+                patch.positions.resize(static_cast<std::size_t>(info.vertex_count));
+                const HolefillOutput output{patch.positions.data(), info.vertex_count, 0, HOLEFILL_TYPE_F64, 0};
+                status = holefill_plan_read_positions(get(), loop_id, 0, &output, error);
+            }
+            if (status == HOLEFILL_STATUS_OK) {
+                patch.triangles.resize(static_cast<std::size_t>(info.triangle_count));
+                const HolefillOutput output{patch.triangles.data(), info.triangle_count, 0, HOLEFILL_TYPE_U64, 0};
+                status = holefill_plan_read_triangles(get(), loop_id, 0, &output, error);
+            }
+            return status;
+        });
     }
     HolefillPlan get() const noexcept { return handle_.get(); }
 
 private:
     detail::Owned<HolefillPlan, holefill_plan_free> handle_;
+    HolefillStatus status_;
 };
 
 /* An attribute of the vertices or triangles of a mesh. */
@@ -589,16 +644,11 @@ public:
     explicit Mesh(HolefillMesh handle) noexcept : handle_(handle) {}
 
     static Result<Mesh> from_arrays(const Rows<3>& positions, const Rows<3>& triangles) {
-        detail::ErrorObject error;
-        HolefillMesh mesh{};
-        const HolefillStatus status =
-            holefill_mesh_from_arrays(positions.get(), triangles.get(), &mesh, error.get());
-        return detail::result(status, error, Mesh(mesh));
+        return make(holefill_mesh_from_arrays, positions.get(), triangles.get());
     }
     /* The last point is joined to the first. */
-    static Result<Mesh> from_polyline(const Rows<3>& points) { return from_polyline(points, nullptr); }
-    static Result<Mesh> from_polyline(const Rows<3>& points, const Rows<3>& normals) {
-        return from_polyline(points, normals.get());
+    static Result<Mesh> from_polyline(const Rows<3>& points, const std::optional<Rows<3>>& normals = std::nullopt) {
+        return make(holefill_mesh_from_polyline, points.get(), normals ? normals->get() : nullptr);
     }
 
     /* The points are the vertices. `normals` and `colors` have a row for each point, if they are there. `summary` gets
@@ -606,7 +656,6 @@ public:
     static Result<Mesh> from_points(const Rows<3>& points, const std::optional<Rows<3>>& normals = std::nullopt,
                                     const std::optional<Rows<3>>& colors = std::nullopt,
                                     const PointOptions& options = {}, HolefillPointSummary* summary = nullptr) {
-        detail::ErrorObject error;
         const Options::Log no_log;
         detail::Callbacks callbacks(options.on_progress, no_log);
         HolefillPointOptions raw = HOLEFILL_POINT_OPTIONS_INIT;
@@ -619,40 +668,35 @@ public:
             raw.progress_data = &callbacks;
         }
         HolefillPointSummary became = HOLEFILL_POINT_SUMMARY_INIT;
-        HolefillMesh handle{};
-        const HolefillStatus status =
-            holefill_mesh_from_points(points.get(), normals ? normals->get() : nullptr, colors ? colors->get() : nullptr,
-                                      &raw, &handle, &became, error.get());
-        Mesh mesh(handle);
-        callbacks.rethrow();
-        if (summary && status == HOLEFILL_STATUS_OK) {
-            *summary = became;
-        }
-        return detail::result(status, error, std::move(mesh));
+        return detail::get(Mesh({}), [&](auto& mesh, auto* error) {
+            HolefillMesh handle{};
+            const HolefillStatus status =
+                holefill_mesh_from_points(points.get(), normals ? normals->get() : nullptr,
+                                          colors ? colors->get() : nullptr, &raw, &handle, &became, error);
+            mesh = Mesh(handle);
+            callbacks.rethrow();
+            if (summary && status == HOLEFILL_STATUS_OK) {
+                *summary = became;
+            }
+            return status;
+        });
     }
 
     Result<HolefillMeshInfo> info() const {
-        detail::ErrorObject error;
-        HolefillMeshInfo info = HOLEFILL_MESH_INFO_INIT;
-        const HolefillStatus status = holefill_mesh_info(handle_.get(), &info, error.get());
-        return detail::result(status, error, std::move(info));
+        return detail::query<HolefillMeshInfo>(HOLEFILL_MESH_INFO_INIT, holefill_mesh_info, get());
     }
     Result<HolefillDefects> defects() const {
-        detail::ErrorObject error;
-        HolefillDefects defects = HOLEFILL_DEFECTS_INIT;
-        const HolefillStatus status = holefill_mesh_defects(handle_.get(), &defects, error.get());
-        return detail::result(status, error, std::move(defects));
+        return detail::query<HolefillDefects>(HOLEFILL_DEFECTS_INIT, holefill_mesh_defects, get());
     }
     Result<void> prepare() const {
-        detail::ErrorObject error;
-        return detail::result(holefill_mesh_prepare(handle_.get(), error.get()), error);
+        return detail::run(holefill_mesh_prepare, get());
     }
     /* The vertices from `first` on, as float or double. */
     template <class T = double>
     Result<std::vector<std::array<T, 3>>> positions(uint64_t first = 0) const {
         return read_rows<T>(first, &HolefillMeshInfo::vertex_count, holefill_mesh_read_positions);
     }
-    /* The triangles from `first` on, as uint32_t or uint64_t. */
+    /* The triangles from `first` on, as integers of 32 or 64 bits. */
     template <class T = uint32_t>
     Result<std::vector<std::array<T, 3>>> triangles(uint64_t first = 0) const {
         return read_rows<T>(first, &HolefillMeshInfo::triangle_count, holefill_mesh_read_triangles);
@@ -662,231 +706,149 @@ public:
     template <class T>
     Result<void> add_attribute(HolefillElement element, const char* name, uint32_t components,
                                const std::vector<T>& values) {
-        detail::ErrorObject error;
         const HolefillInput input{values.data(), components == 0 ? 0 : values.size() / components, 0,
                                   detail::scalar_type<T>(), 0};
-        return detail::result(
-            holefill_mesh_add_attribute(handle_.get(), element, name, components, &input, error.get()), error);
+        return detail::run(holefill_mesh_add_attribute, get(), element, name, components, &input);
     }
     Result<std::vector<Attribute>> attributes(HolefillElement element) const {
-        detail::ErrorObject error;
-        uint64_t count = 0;
-        HolefillStatus status = holefill_mesh_attribute_count(handle_.get(), element, &count, error.get());
-        std::vector<Attribute> attributes;
-        for (uint64_t i = 0; status == HOLEFILL_STATUS_OK && i < count; ++i) {
-            Attribute attribute{HOLEFILL_ATTRIBUTE_INFO_INIT, {}};
-            status = holefill_mesh_attribute_info(handle_.get(), element, i, &attribute, error.get());
-            if (status == HOLEFILL_STATUS_OK) {
-                status = detail::read_text(attribute.name, [&](char* buffer, uint64_t capacity, uint64_t* length) {
-                    return holefill_mesh_attribute_name(handle_.get(), element, i, buffer, capacity, length,
-                                                        error.get());
-                });
+        return detail::get(std::vector<Attribute>(), [&](auto& attributes, auto* error) {
+            uint64_t count = 0;
+            HolefillStatus status = holefill_mesh_attribute_count(get(), element, &count, error);
+            for (uint64_t i = 0; status == HOLEFILL_STATUS_OK && i < count; ++i) {
+                Attribute attribute{HOLEFILL_ATTRIBUTE_INFO_INIT, {}};
+                status = holefill_mesh_attribute_info(get(), element, i, &attribute, error);
+                if (status == HOLEFILL_STATUS_OK) {
+                    status = detail::read(attribute.name, error, holefill_mesh_attribute_name, get(), element, i);
+                }
+                attributes.push_back(std::move(attribute));
             }
-            attributes.push_back(std::move(attribute));
-        }
-        return detail::result(status, error, std::move(attributes));
+            return status;
+        });
     }
     /* The values of attribute `index` from row `first` on, one row after the other, in its own type or as double. */
     template <class T = double>
     Result<std::vector<T>> attribute(HolefillElement element, uint64_t index, uint64_t first = 0) const {
-        detail::ErrorObject error;
-        HolefillAttributeInfo info = HOLEFILL_ATTRIBUTE_INFO_INIT;
-        HolefillStatus status = holefill_mesh_attribute_info(handle_.get(), element, index, &info, error.get());
-        std::vector<T> values;
-        if (status == HOLEFILL_STATUS_OK) {
-            const uint64_t count = first < info.count ? info.count - first : 0;
-            values.resize(static_cast<std::size_t>(count * info.components));
-            const HolefillOutput output{values.data(), count, 0, detail::scalar_type<T>(), 0};
-            status = holefill_mesh_read_attribute(handle_.get(), element, index, first, &output, error.get());
-        }
-        return detail::result(status, error, std::move(values));
+        return detail::get(std::vector<T>(), [&](auto& values, auto* error) {
+            HolefillAttributeInfo info = HOLEFILL_ATTRIBUTE_INFO_INIT;
+            HolefillStatus status = holefill_mesh_attribute_info(get(), element, index, &info, error);
+            if (status == HOLEFILL_STATUS_OK) {
+                const uint64_t count = first < info.count ? info.count - first : 0;
+                values.resize(static_cast<std::size_t>(count * info.components));
+                const HolefillOutput output{values.data(), count, 0, detail::scalar_type<T>(), 0};
+                status = holefill_mesh_read_attribute(get(), element, index, first, &output, error);
+            }
+            return status;
+        });
     }
 
     Result<uint64_t> loop_count() const {
-        detail::ErrorObject error;
-        uint64_t count = 0;
-        const HolefillStatus status = holefill_mesh_loop_count(handle_.get(), &count, error.get());
-        return detail::result(status, error, std::move(count));
+        return detail::query(uint64_t{0}, holefill_mesh_loop_count, get());
     }
     Result<HolefillLoopInfo> loop(uint64_t loop_id) const {
-        detail::ErrorObject error;
-        HolefillLoopInfo info = HOLEFILL_LOOP_INFO_INIT;
-        const HolefillStatus status = holefill_mesh_loop_info(handle_.get(), loop_id, &info, error.get());
-        return detail::result(status, error, std::move(info));
+        return detail::query<HolefillLoopInfo>(HOLEFILL_LOOP_INFO_INIT, holefill_mesh_loop_info, get(), loop_id);
     }
     Result<std::vector<HolefillLoopInfo>> loops() const {
-        detail::ErrorObject error;
-        uint64_t count = 0;
-        HolefillStatus status = holefill_mesh_loop_count(handle_.get(), &count, error.get());
-        std::vector<HolefillLoopInfo> loops;
-        for (uint64_t i = 0; status == HOLEFILL_STATUS_OK && i < count; ++i) {
-            loops.push_back(HOLEFILL_LOOP_INFO_INIT);
-            status = holefill_mesh_loop_info(handle_.get(), i, &loops.back(), error.get());
-        }
-        return detail::result(status, error, std::move(loops));
+        using Loops = std::vector<HolefillLoopInfo>;
+        return detail::get(Loops(), [&](auto& loops, auto* error) {
+            uint64_t count = 0;
+            HolefillStatus status = holefill_mesh_loop_count(get(), &count, error);
+            for (uint64_t i = 0; status == HOLEFILL_STATUS_OK && i < count; ++i) {
+                loops.push_back(HOLEFILL_LOOP_INFO_INIT);
+                status = holefill_mesh_loop_info(get(), i, &loops.back(), error);
+            }
+            return status;
+        });
     }
     /* The vertices of a loop, in the direction in which its triangles run. */
     Result<std::vector<uint64_t>> loop_vertices(uint64_t loop_id) const {
-        detail::ErrorObject error;
-        HolefillLoopInfo info = HOLEFILL_LOOP_INFO_INIT;
-        HolefillStatus status = holefill_mesh_loop_info(handle_.get(), loop_id, &info, error.get());
-        std::vector<uint64_t> vertices;
-        if (status == HOLEFILL_STATUS_OK) {
-            vertices.resize(static_cast<std::size_t>(info.vertex_count));
-            const HolefillOutput output{vertices.data(), info.vertex_count, 0, HOLEFILL_TYPE_U64, 0};
-            status = holefill_mesh_read_loop(handle_.get(), loop_id, 0, &output, error.get());
-        }
-        return detail::result(status, error, std::move(vertices));
+        return detail::get(std::vector<uint64_t>(), [&](auto& vertices, auto* error) {
+            HolefillLoopInfo info = HOLEFILL_LOOP_INFO_INIT;
+            HolefillStatus status = holefill_mesh_loop_info(get(), loop_id, &info, error);
+            if (status == HOLEFILL_STATUS_OK) {
+                vertices.resize(static_cast<std::size_t>(info.vertex_count));
+                const HolefillOutput output{vertices.data(), info.vertex_count, 0, HOLEFILL_TYPE_U64, 0};
+                status = holefill_mesh_read_loop(get(), loop_id, 0, &output, error);
+            }
+            return status;
+        });
     }
     Result<uint64_t> find_edge(uint64_t from, uint64_t to) const {
-        detail::ErrorObject error;
-        uint64_t loop_id = 0;
-        const HolefillStatus status = holefill_mesh_find_edge(handle_.get(), from, to, &loop_id, error.get());
-        return detail::result(status, error, std::move(loop_id));
+        return detail::query(uint64_t{0}, holefill_mesh_find_edge, get(), from, to);
     }
     Result<std::vector<uint64_t>> find_vertices(const Rows<1>& vertices) const {
-        return read_ids([&](uint64_t* ids, uint64_t capacity, uint64_t* count, HolefillError* error) {
-            return holefill_mesh_find_vertices(handle_.get(), vertices.get(), ids, capacity, count, error);
+        return detail::get(std::vector<uint64_t>(), [&](auto& ids, auto* error) {
+            return detail::read(ids, error, holefill_mesh_find_vertices, get(), vertices.get());
         });
     }
     Result<std::vector<uint64_t>> select(const Selection& selection) const {
-        const HolefillSelection raw = to_c(selection);
-        return read_ids([&](uint64_t* ids, uint64_t capacity, uint64_t* count, HolefillError* error) {
-            return holefill_mesh_select(handle_.get(), &raw, ids, capacity, count, error);
+        const HolefillSelection raw = selection.raw();
+        return detail::get(std::vector<uint64_t>(), [&](auto& ids, auto* error) {
+            return detail::read(ids, error, holefill_mesh_select, get(), &raw);
         });
     }
 
-    Result<Report> fill_loop(uint64_t loop_id, const Options& options = {}) {
-        return make<HolefillReport, Report>(options, [&](const HolefillFillOptions* raw, HolefillReport* report,
-                                                         HolefillError* error) {
-            return holefill_mesh_fill_loop(handle_.get(), loop_id, raw, report, error);
+    /* Fills holes: every open loop, if no target is given. */
+    Result<Report> fill(const Target& target, const Options& options = {}) {
+        return make<HolefillReport, Report>(options, [&](auto* raw, auto* report, auto* error) {
+            return target.with([&](const HolefillTarget* t) { return holefill_mesh_fill(get(), t, raw, report, error); });
         });
     }
-    Result<Report> fill_edge(uint64_t from, uint64_t to, const Options& options = {}) {
-        return make<HolefillReport, Report>(options, [&](const HolefillFillOptions* raw, HolefillReport* report,
-                                                         HolefillError* error) {
-            return holefill_mesh_fill_edge(handle_.get(), from, to, raw, report, error);
-        });
-    }
-    Result<Report> fill_vertices(const Rows<1>& vertices, const Options& options = {}) {
-        return make<HolefillReport, Report>(options, [&](const HolefillFillOptions* raw, HolefillReport* report,
-                                                         HolefillError* error) {
-            return holefill_mesh_fill_vertices(handle_.get(), vertices.get(), raw, report, error);
-        });
-    }
-    Result<Report> fill_loops(const Rows<1>& loop_ids, const Options& options = {}) {
-        return make<HolefillReport, Report>(options, [&](const HolefillFillOptions* raw, HolefillReport* report,
-                                                         HolefillError* error) {
-            return holefill_mesh_fill_loops(handle_.get(), loop_ids.get(), raw, report, error);
-        });
-    }
-    /* Fills all open loops that the selection chooses. */
-    Result<Report> fill_selected(const Selection& selection, const Options& options = {}) {
-        const HolefillSelection rules = to_c(selection);
-        return make<HolefillReport, Report>(options, [&](const HolefillFillOptions* raw, HolefillReport* report,
-                                                         HolefillError* error) {
-            return holefill_mesh_fill_selected(handle_.get(), &rules, raw, report, error);
-        });
-    }
-    Result<Report> fill_all(const Options& options = {}) { return fill_selected(Selection{}, options); }
+    Result<Report> fill(const Options& options = {}) { return fill(Target(), options); }
     Result<void> undo() {
-        detail::ErrorObject error;
-        return detail::result(holefill_mesh_undo(handle_.get(), error.get()), error);
+        return detail::run(holefill_mesh_undo, get());
     }
 
-    Result<Plan> plan_loop(uint64_t loop_id, const Options& options = {}) const {
-        return make<HolefillPlan, Plan>(options, [&](const HolefillFillOptions* raw, HolefillPlan* plan,
-                                                     HolefillError* error) {
-            return holefill_mesh_plan_loop(handle_.get(), loop_id, raw, plan, error);
+    /* Makes patches and leaves the mesh as it is. */
+    Result<Plan> plan(const Target& target, const Options& options = {}) const {
+        return make<HolefillPlan, Plan>(options, [&](auto* raw, auto* plan, auto* error) {
+            return target.with([&](const HolefillTarget* t) { return holefill_mesh_plan(get(), t, raw, plan, error); });
         });
     }
-    Result<Plan> plan_edge(uint64_t from, uint64_t to, const Options& options = {}) const {
-        return make<HolefillPlan, Plan>(options, [&](const HolefillFillOptions* raw, HolefillPlan* plan,
-                                                     HolefillError* error) {
-            return holefill_mesh_plan_edge(handle_.get(), from, to, raw, plan, error);
-        });
-    }
-    Result<Plan> plan_vertices(const Rows<1>& vertices, const Options& options = {}) const {
-        return make<HolefillPlan, Plan>(options, [&](const HolefillFillOptions* raw, HolefillPlan* plan,
-                                                     HolefillError* error) {
-            return holefill_mesh_plan_vertices(handle_.get(), vertices.get(), raw, plan, error);
-        });
-    }
-    Result<Plan> plan_loops(const Rows<1>& loop_ids, const Options& options = {}) const {
-        return make<HolefillPlan, Plan>(options, [&](const HolefillFillOptions* raw, HolefillPlan* plan,
-                                                     HolefillError* error) {
-            return holefill_mesh_plan_loops(handle_.get(), loop_ids.get(), raw, plan, error);
-        });
-    }
-    Result<Plan> plan_selected(const Selection& selection, const Options& options = {}) const {
-        const HolefillSelection rules = to_c(selection);
-        return make<HolefillPlan, Plan>(options, [&](const HolefillFillOptions* raw, HolefillPlan* plan,
-                                                     HolefillError* error) {
-            return holefill_mesh_plan_selected(handle_.get(), &rules, raw, plan, error);
-        });
-    }
-    Result<Plan> plan_all(const Options& options = {}) const { return plan_selected(Selection{}, options); }
+    Result<Plan> plan(const Options& options = {}) const { return plan(Target(), options); }
     /* Appends the patches of a plan. Of `options` only the callbacks count. */
     Result<Report> apply(const Plan& plan, const Options& options = {}) {
-        return make<HolefillReport, Report>(options, [&](const HolefillFillOptions* raw, HolefillReport* report,
-                                                         HolefillError* error) {
-            return holefill_plan_apply(plan.get(), handle_.get(), raw, report, error);
+        return make<HolefillReport, Report>(options, [&](auto* raw, auto* report, auto* error) {
+            return holefill_plan_apply(plan.get(), get(), raw, report, error);
         });
     }
     HolefillMesh get() const noexcept { return handle_.get(); }
 
 private:
-    static Result<Mesh> from_polyline(const Rows<3>& points, const HolefillInput* normals) {
-        detail::ErrorObject error;
-        HolefillMesh mesh{};
-        const HolefillStatus status = holefill_mesh_from_polyline(points.get(), normals, &mesh, error.get());
-        return detail::result(status, error, Mesh(mesh));
-    }
-    /* Points into `selection`. */
-    static HolefillSelection to_c(const Selection& selection) {
-        HolefillSelection raw = HOLEFILL_SELECTION_INIT;
-        raw.only = *Rows<2>(selection.only).get();
-        raw.keep = *Rows<2>(selection.keep).get();
-        raw.max_edges = selection.max_edges;
-        raw.max_perimeter = selection.max_perimeter;
-        raw.keep_largest = selection.keep_largest;
-        return raw;
-    }
     template <class T, class Read>
     Result<std::vector<std::array<T, 3>>> read_rows(uint64_t first, uint64_t HolefillMeshInfo::*total,
                                                     Read read) const {
-        detail::ErrorObject error;
-        HolefillMeshInfo info = HOLEFILL_MESH_INFO_INIT;
-        HolefillStatus status = holefill_mesh_info(handle_.get(), &info, error.get());
-        std::vector<std::array<T, 3>> rows;
-        if (status == HOLEFILL_STATUS_OK) {
-            rows.resize(static_cast<std::size_t>(first < info.*total ? info.*total - first : 0));
-            const HolefillOutput output{rows.data(), rows.size(), 0, detail::scalar_type<T>(), 0};
-            status = read(handle_.get(), first, &output, error.get());
-        }
-        return detail::result(status, error, std::move(rows));
+        using List = std::vector<std::array<T, 3>>;
+        return detail::get(List(), [&](auto& rows, auto* error) {
+            HolefillMeshInfo info = HOLEFILL_MESH_INFO_INIT;
+            HolefillStatus status = holefill_mesh_info(get(), &info, error);
+            if (status == HOLEFILL_STATUS_OK) {
+                rows.resize(static_cast<std::size_t>(first < info.*total ? info.*total - first : 0));
+                const HolefillOutput output{rows.data(), rows.size(), 0, detail::scalar_type<T>(), 0};
+                status = read(get(), first, &output, error);
+            }
+            return status;
+        });
     }
-    template <class Read>
-    static Result<std::vector<uint64_t>> read_ids(Read read) {
-        detail::ErrorObject error;
-        uint64_t count = 0;
-        std::vector<uint64_t> ids;
-        HolefillStatus status = read(nullptr, 0, &count, error.get());
-        if (status == HOLEFILL_STATUS_OK && count > 0) {
-            ids.resize(static_cast<std::size_t>(count));
-            status = read(ids.data(), count, &count, error.get());
-        }
-        return detail::result(status, error, std::move(ids));
+    template <class Function>
+    static Result<Mesh> make(Function function, const HolefillInput* a, const HolefillInput* b) {
+        return detail::get(Mesh({}), [&](auto& mesh, auto* error) {
+            HolefillMesh handle{};
+            const HolefillStatus status = function(a, b, &handle, error);
+            mesh = Mesh(handle);
+            return status;
+        });
     }
     template <class Handle, class Owner, class Function>
     static Result<Owner> make(const Options& options, Function function) {
-        detail::ErrorObject error;
-        detail::Call call(options);
-        Handle handle{};
-        const HolefillStatus status = function(call.get(), &handle, error.get());
-        Owner owner(handle);
-        call.rethrow();
-        return detail::result(status, error, std::move(owner));
+        return detail::get(Owner(Handle{}), [&](auto& owner, auto* error) {
+            Handle handle{};
+            detail::Call call(options);
+            const HolefillStatus status =
+                call.run(error, [&](const HolefillFillOptions* raw) { return function(raw, &handle, error); });
+            owner = Owner(handle, status);
+            call.rethrow();
+            return status;
+        });
     }
 
     detail::Owned<HolefillMesh, holefill_mesh_free> handle_;

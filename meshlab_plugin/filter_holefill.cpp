@@ -273,7 +273,7 @@ FilterHolefill::Values FilterHolefill::fillHoles(const RichParameterList& parame
     std::vector<holefill::Hole> holes;
     run_in_background(callback, [&](const holefill::Options::Progress& progress) {
         settings.options.on_progress(progress);
-        holes = exchange.mesh().fill_selected(selection, settings.options).holes();
+        holes = exchange.mesh().fill(selection, settings.options).holes();
     });
     if (settings.refuses_intersections) {
         refuse_intersections(holes, exchange.mesh());

@@ -7,7 +7,7 @@ use std::mem::offset_of;
 use std::path::{Path, PathBuf};
 
 /// The parts of the interface, in the order in which the header has them.
-const PARTS: [&str; 13] = [
+const PARTS: [&str; 12] = [
     "version",
     "status",
     "types",
@@ -20,7 +20,33 @@ const PARTS: [&str; 13] = [
     "fill",
     "plan",
     "report",
-    "prediction",
+];
+
+/// All files of the interface: each uses only files that stand before it.
+const LAYERS: [&str; 23] = [
+    "status",
+    "types",
+    "failure",
+    "handles",
+    "shared",
+    "objects",
+    "guard",
+    "rows",
+    "input",
+    "output",
+    "text",
+    "structs",
+    "version",
+    "error",
+    "callbacks",
+    "options",
+    "attributes",
+    "mesh",
+    "points",
+    "loops",
+    "fill",
+    "plan",
+    "report",
 ];
 
 fn root() -> &'static Path {
@@ -148,6 +174,7 @@ fn layout() -> String {
             loop_class, is_open
         }
         HolefillSelection { struct_size, version, only, keep, max_edges, max_perimeter, keep_largest }
+        HolefillTarget { struct_size, version, kind, reserved, loop_id, edge, ids, selection }
         HolefillProgress { struct_size, version, holes_done, holes_total, seconds }
         HolefillFillOptions {
             struct_size, version, method, parameters, seed, time_budget, density, max_new_vertices, threads, log_level,
@@ -258,6 +285,9 @@ const UNGUARDED: [&str; 4] = [
     "holefill_status_message",
 ];
 
+/// What runs the bodies of the others, and a function that calls such a one.
+const GUARDS: [&str; 4] = ["guard(", "guard_", " text(&", "{ holefill_mesh_fill("];
+
 #[test]
 fn every_exported_function_is_guarded() {
     let mut count = 0;
@@ -272,18 +302,36 @@ fn every_exported_function_is_guarded() {
                 .next()
                 .unwrap();
             let body = function.split("\n}\n").next().unwrap();
-            let is_guarded = [
-                "guard(",
-                "guard_free(",
-                "guard_value(",
-                "{ fill(mesh, Holes::",
-                "{ make_plan(mesh, Holes::",
-            ]
-            .iter()
-            .any(|call| body.contains(call));
+            let is_guarded = GUARDS.iter().any(|call| body.contains(call));
             assert!(is_guarded || UNGUARDED.contains(&name), "{name}");
             count += 1;
         }
     }
     assert_eq!(count, declared().len());
+}
+
+#[test]
+fn the_files_of_the_interface_lie_in_layers() {
+    let mut files: Vec<String> = fs::read_dir(root().join("src/ffi"))
+        .unwrap()
+        .filter_map(|entry| entry.unwrap().file_name().into_string().ok())
+        .filter_map(|name| Some(name.strip_suffix(".rs")?.to_owned()))
+        .filter(|name| name != "mod")
+        .collect();
+    files.sort();
+    let mut known = LAYERS.to_vec();
+    known.sort_unstable();
+    assert_eq!(files, known);
+    for (level, layer) in LAYERS.iter().enumerate() {
+        let source = fs::read_to_string(root().join(format!("src/ffi/{layer}.rs"))).unwrap();
+        for path in source.split("super::").skip(1) {
+            let is_word = |c: char| c.is_ascii_lowercase() || c == '_';
+            let used = &path[..path.find(|c| !is_word(c)).unwrap_or(path.len())];
+            let above = LAYERS.iter().position(|l| *l == used);
+            assert!(
+                above.is_none_or(|above| above < level),
+                "{layer} uses {used}"
+            );
+        }
+    }
 }

@@ -38,7 +38,7 @@ std::vector<Triangle> searched(const holefill::Mesh& mesh, std::uint64_t loop) {
     options.set("flat.exact-limit", "2048");
     options.set("fill.fallback", "off");
     options.set("fill.join-islands", "off");
-    const holefill::Plan plan = mesh.plan_loop(loop, options);
+    const holefill::Plan plan = mesh.plan(holefill::Target::loop(loop), options);
     std::vector<Triangle> triangles;
     if (plan.report().hole(0).status != HOLEFILL_HOLE_FILLED) return triangles;
     for (const auto& t : plan.patch(loop).triangles)
@@ -59,7 +59,7 @@ Fill fill(const Case& c, const std::string& method, const Settings& settings) {
     for (const auto& [name, value] : settings) options.set(name.c_str(), value.c_str());
 
     const auto start = std::chrono::steady_clock::now();
-    const holefill::Report report = mesh.fill_selected(selection, options);
+    const holefill::Report report = mesh.fill(selection, options);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
 
     Fill out;

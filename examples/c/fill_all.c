@@ -95,6 +95,7 @@ int main(int argc, char **argv) {
     HolefillInput position_input = {positions, (SIDE + 1) * (SIDE + 1), 0, HOLEFILL_TYPE_F32, 0};
     HolefillInput triangle_input = {triangles, 0, 0, HOLEFILL_TYPE_U32, 0};
     HolefillSelection selection = HOLEFILL_SELECTION_INIT;
+    HolefillTarget target = HOLEFILL_TARGET_INIT;
     HolefillMesh mesh = {0};
     HolefillReport report = {0};
     HolefillError error = {0};
@@ -131,7 +132,8 @@ int main(int argc, char **argv) {
         return fail(error, status);
     }
     selection.keep_largest = 1;
-    status = holefill_mesh_fill_selected(mesh, &selection, NULL, &report, &error);
+    target.selection = &selection;
+    status = holefill_mesh_fill(mesh, &target, NULL, &report, &error);
     if (status != HOLEFILL_STATUS_OK && status != HOLEFILL_STATUS_INCOMPLETE) {
         holefill_mesh_free(mesh);
         return fail(error, status);

@@ -100,7 +100,7 @@ void fill_hole(HalfedgeMesh& mesh, int picked) {
 
     const auto& edge = mesh.halfedges[picked];
     const uint64_t loop = input.find_edge(edge.from, edge.to);
-    const holefill::Plan plan = input.plan_loop(loop);
+    const holefill::Plan plan = input.plan(holefill::Target::loop(loop));
     const holefill::Hole hole = plan.report().hole(0);
     if (hole.status != HOLEFILL_HOLE_FILLED) {
         std::printf("the hole stays open: %s\n", hole.reason.c_str());

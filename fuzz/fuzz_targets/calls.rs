@@ -153,6 +153,25 @@ fn state(mesh: HolefillMesh) -> State {
     Some((positions, triangles, info.undo_count))
 }
 
+/// All of these rows.
+fn view<T>(rows: &[T], scalar_type: HolefillType) -> HolefillInput {
+    HolefillInput {
+        data: rows.as_ptr().cast(),
+        count: rows.len() as u64,
+        stride: 0,
+        scalar_type,
+        reserved: 0,
+    }
+}
+
+const NO_ROWS: HolefillInput = HolefillInput {
+    data: ptr::null(),
+    count: 0,
+    stride: 0,
+    scalar_type: 0,
+    reserved: 0,
+};
+
 /// Data that a call may read or write: views of it lie within.
 struct Room {
     bytes: Vec<u8>,
@@ -274,48 +293,65 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
     let e = &raw mut *error;
     // The vertices of a loop, most of the time of this mesh.
     let mut chain = [0_u32; 64];
-    // SAFETY: the output describes living memory.
+    let output = HolefillOutput {
+        data: chain.as_mut_ptr().cast(),
+        count: 64,
+        stride: 0,
+        scalar_type: HOLEFILL_TYPE_U32,
+        reserved: 0,
+    };
+    // SAFETY: zeros are a value of the struct, and the pointers are to living values.
     let length = unsafe {
         let mut info: HolefillLoopInfo = std::mem::zeroed();
         info.struct_size = size_of::<HolefillLoopInfo>() as u32;
         info.version = HOLEFILL_LOOP_INFO_VERSION;
         let status = holefill_mesh_loop_info(mesh, id, &mut info, ptr::null_mut());
-        let output = HolefillOutput {
-            data: chain.as_mut_ptr().cast(),
-            count: info.vertex_count.min(64),
-            stride: 0,
-            scalar_type: HOLEFILL_TYPE_U32,
-            reserved: 0,
-        };
+        let count = info.vertex_count.min(64);
         if status == HOLEFILL_STATUS_OK {
+            let output = HolefillOutput { count, ..output };
             holefill_mesh_read_loop(mesh, id, 0, &output, ptr::null_mut());
         }
-        info.vertex_count.min(64)
+        count as usize
     };
-    let vertices = HolefillInput {
-        data: chain.as_ptr().cast(),
-        count: length,
-        stride: 0,
-        scalar_type: HOLEFILL_TYPE_U32,
-        reserved: 0,
+    // A target of every kind, with rules, rows or a chain.
+    let (ids_view, edges) = (room.view(bytes), room.view(bytes));
+    let vertices = view(&chain[..length], HOLEFILL_TYPE_U32);
+    let rules = HolefillSelection {
+        struct_size: size_of::<HolefillSelection>() as u32,
+        version: HOLEFILL_SELECTION_VERSION,
+        only: if bytes.byte() > 128 { edges } else { NO_ROWS },
+        keep: NO_ROWS,
+        max_edges: bytes.number(),
+        max_perimeter: bytes.coordinate(),
+        keep_largest: bytes.number(),
     };
+    let target = Longer {
+        known: HolefillTarget {
+            struct_size: size_of::<HolefillTarget>() as u32 + u32::from(bytes.byte() == 77),
+            version: HOLEFILL_TARGET_VERSION,
+            kind: u32::from(bytes.byte() % 6),
+            reserved: u32::from(bytes.byte() == 200),
+            loop_id: id % 6,
+            edge: [from, to],
+            ids: match bytes.byte() {
+                0..100 => &vertices,
+                100..200 => &ids_view,
+                _ => ptr::null(),
+            },
+            selection: if bytes.byte() > 99 { &rules } else { ptr::null() },
+        },
+        beyond: u64::from(bytes.byte() == 79),
+    };
+    let t: *const HolefillTarget =
+        if bytes.byte() > 200 { ptr::null() } else { (&raw const target).cast() };
     let before = state(mesh);
     // SAFETY: every pointer is null, or to as much memory as is said beside it.
     let status = unsafe {
         match bytes.byte() % 44 {
             0..4 => {
                 let (points, triangles) = grid(bytes);
-                let view = |data: *const c_void, count: usize, scalar_type| HolefillInput {
-                    data,
-                    count: count as u64,
-                    stride: 0,
-                    scalar_type,
-                    reserved: 0,
-                };
-                let points_view = view(points.as_ptr().cast(), points.len(), HOLEFILL_TYPE_F64);
-                let triangles_view =
-                    view(triangles.as_ptr().cast(), triangles.len(), HOLEFILL_TYPE_U32);
-                holefill_mesh_from_arrays(&points_view, &triangles_view, &mut new_mesh, e)
+                let triangles = view(&triangles, [HOLEFILL_TYPE_U32, HOLEFILL_TYPE_I32][bytes.byte() as usize % 2]);
+                holefill_mesh_from_arrays(&view(&points, HOLEFILL_TYPE_F64), &triangles, &mut new_mesh, e)
             }
             4 => {
                 let (p, t) = (room.view(bytes), other_room.view(bytes));
@@ -331,13 +367,7 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
                 let points: Vec<[f64; 3]> = (0..count)
                     .map(|_| [bytes.coordinate(), bytes.coordinate(), bytes.coordinate()])
                     .collect();
-                let p = HolefillInput {
-                    data: points.as_ptr().cast(),
-                    count: count as u64,
-                    stride: 0,
-                    scalar_type: HOLEFILL_TYPE_F64,
-                    reserved: 0,
-                };
+                let p = view(&points, HOLEFILL_TYPE_F64);
                 let n = if bytes.byte() > 99 { ptr::null() } else { &raw const p };
                 holefill_mesh_from_polyline(&p, n, &mut new_mesh, e)
             }
@@ -376,27 +406,10 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
             21 => holefill_mesh_read_loop(mesh, id, from, &room.output(bytes), e),
             22 => holefill_mesh_find_edge(mesh, from, to, &mut number, e),
             23 => holefill_mesh_find_vertices(mesh, &room.view(bytes), ids.as_mut_ptr(), capacity, &mut number, e),
-            24 => {
-                let mut rules: HolefillSelection = std::mem::zeroed();
-                holefill_selection_init(&mut rules, size_of::<HolefillSelection>() as u32);
-                rules.max_edges = bytes.number();
-                rules.max_perimeter = bytes.coordinate();
-                rules.keep_largest = bytes.number();
-                if bytes.byte() > 128 {
-                    rules.only = room.view(bytes);
-                }
-                match bytes.byte() % 3 {
-                    0 => holefill_mesh_select(mesh, &rules, ids.as_mut_ptr(), capacity, &mut number, e),
-                    1 => holefill_mesh_fill_selected(mesh, &rules, o, &mut new_report, e),
-                    _ => holefill_mesh_plan_selected(mesh, &rules, o, &mut new_plan, e),
-                }
-            }
-            25..28 => holefill_mesh_fill_loop(mesh, id % 6, o, &mut new_report, e),
-            28 => holefill_mesh_fill_edge(mesh, from, to, o, &mut new_report, e),
-            29 => holefill_mesh_fill_loops(mesh, &room.view(bytes), o, &mut new_report, e),
-            30 => holefill_mesh_fill_selected(mesh, ptr::null(), o, &mut new_report, e),
-            31 => holefill_mesh_plan_loop(mesh, id % 6, o, &mut new_plan, e),
-            32 => holefill_mesh_plan_selected(mesh, ptr::null(), o, &mut new_plan, e),
+            24 => holefill_mesh_select(mesh, &rules, ids.as_mut_ptr(), capacity, &mut number, e),
+            25..30 => holefill_mesh_fill(mesh, t, o, &mut new_report, e),
+            30 => holefill_mesh_fill_all(mesh, e),
+            31..33 => holefill_mesh_plan(mesh, t, o, &mut new_plan, e),
             33 | 34 => holefill_plan_apply(plan, mesh, o, &mut new_report, e),
             35 => match bytes.byte() % 3 {
                 0 => holefill_plan_report(plan, &mut new_report, e),
@@ -422,13 +435,7 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
             }
             40 => {
                 let (points, _) = grid(bytes);
-                let p = HolefillInput {
-                    data: points.as_ptr().cast(),
-                    count: points.len() as u64,
-                    stride: 0,
-                    scalar_type: HOLEFILL_TYPE_F64,
-                    reserved: 0,
-                };
+                let p = view(&points, HOLEFILL_TYPE_F64);
                 let (n, c) = match bytes.byte() {
                     0..100 => (ptr::null(), ptr::null()),
                     _ => (&raw const p, &raw const p),
@@ -445,31 +452,16 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
                 };
                 holefill_mesh_from_points(&p, n, c, &point_options, &mut new_mesh, ptr::null_mut(), e)
             }
-            41 => {
-                let from_here = if bytes.byte() > 99 { &raw const vertices } else { ptr::null() };
-                match bytes.byte() % 5 {
-                    0 => holefill_mesh_fill_vertices(mesh, from_here, o, &mut new_report, e),
-                    1 => holefill_mesh_plan_vertices(mesh, from_here, o, &mut new_plan, e),
-                    2 => holefill_mesh_plan_edge(mesh, from, to, o, &mut new_plan, e),
-                    3 => holefill_mesh_plan_loops(mesh, &room.view(bytes), o, &mut new_plan, e),
-                    _ => holefill_mesh_read_loop(mesh, id, 0, &other_room.output(bytes), e),
-                }
-            }
+            41 => holefill_report_json(report, text.as_mut_ptr(), 64, &mut number, e),
             42 => {
-                let (mut candidate, mut score) = (ptr::null(), 0.0);
+                // A struct of any size, within its room.
                 let mut prediction = Longer {
                     known: std::mem::zeroed::<HolefillPrediction>(),
                     beyond: u64::MAX,
                 };
-                prediction.known.struct_size = size_of::<HolefillPrediction>() as u32 + u32::from(bytes.byte() % 2);
+                prediction.known.struct_size = u32::from(bytes.byte()) % (size_of::<Longer<HolefillPrediction>>() as u32 + 1);
                 prediction.known.version = HOLEFILL_PREDICTION_VERSION;
-                let place: *mut HolefillPrediction = (&raw mut prediction).cast();
-                match bytes.byte() % 4 {
-                    0 => holefill_report_prediction(report, id, place, e),
-                    1 => holefill_report_score(report, id, from, &mut candidate, &mut score, e),
-                    2 => holefill_report_crease_surface(report, id, from, &mut candidate, e),
-                    _ => holefill_report_without_creases(report, id, text.as_mut_ptr(), capacity, &mut number, e),
-                }
+                holefill_report_prediction(report, id, (&raw mut prediction).cast(), e)
             }
             _ => {
                 let mut method = ptr::null();

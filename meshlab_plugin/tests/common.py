@@ -42,6 +42,12 @@ class Selection(ctypes.Structure):
                 ("max_edges", ctypes.c_uint64), ("max_perimeter", ctypes.c_double), ("keep_largest", ctypes.c_uint64)]
 
 
+class Target(ctypes.Structure):
+    _fields_ = [("struct_size", ctypes.c_uint32), ("version", ctypes.c_uint32), ("kind", ctypes.c_uint32),
+                ("reserved", ctypes.c_uint32), ("loop_id", ctypes.c_uint64), ("edge", ctypes.c_uint64 * 2),
+                ("ids", ctypes.POINTER(Input)), ("selection", ctypes.POINTER(Selection))]
+
+
 class Options(ctypes.Structure):
     _fields_ = [("struct_size", ctypes.c_uint32), ("version", ctypes.c_uint32), ("method", ctypes.c_char_p),
                 ("parameters", Handle), ("seed", ctypes.c_uint64), ("time_budget", ctypes.c_double),
@@ -78,7 +84,8 @@ def fill_by_library(positions, triangles, method=None, density=0.0, **rules):
                                             ctypes.byref(mesh), None))
     selection = Selection(ctypes.sizeof(Selection), 1, **rules)
     options = Options(ctypes.sizeof(Options), 1, method.encode() if method else None, density=density)
-    check(library.holefill_mesh_fill_selected(mesh, ctypes.byref(selection), ctypes.byref(options), None, None))
+    target = Target(ctypes.sizeof(Target), 1, selection=ctypes.pointer(selection))
+    check(library.holefill_mesh_fill(mesh, ctypes.byref(target), ctypes.byref(options), None, None))
     info = MeshInfo(ctypes.sizeof(MeshInfo), 1)
     check(library.holefill_mesh_info(mesh, ctypes.byref(info), None))
     positions = np.empty((info.vertices, 3))

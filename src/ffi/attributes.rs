@@ -1,22 +1,18 @@
 //! Attributes of vertices and triangles, in and out.
 //!
-//! A mesh has columns of single numbers. An attribute of several components is several columns, named so that the
-//! pipeline knows colours and normals when it sees them.
+//! A mesh has columns of single numbers. An attribute of several components is several columns. Their names are those
+//! by which the pipeline knows colors and normals.
 
-use super::guard::{Failure, guard};
-use super::memory::{
-    ATTRIBUTE_TYPES, Columns, Sink, Wanted, blank, invalid, null, read_text, write, write_struct,
-    write_text,
-};
-use super::mesh::MeshObject;
-use super::objects::{with_mesh, with_mesh_mut};
-use super::status::{HOLEFILL_STATUS_NOT_FOUND, HOLEFILL_STATUS_OK, HolefillStatus};
-use super::types::{
-    HOLEFILL_ELEMENT_TRIANGLE, HOLEFILL_ELEMENT_VERTEX, HOLEFILL_TYPE_F32, HOLEFILL_TYPE_F64,
-    HOLEFILL_TYPE_I8, HOLEFILL_TYPE_I16, HOLEFILL_TYPE_I32, HOLEFILL_TYPE_U8, HOLEFILL_TYPE_U16,
-    HOLEFILL_TYPE_U32, HolefillAttributeInfo, HolefillElement, HolefillError, HolefillInput,
-    HolefillMesh, HolefillOutput, HolefillType,
-};
+use super::failure::{Failure, invalid, nth};
+use super::guard::{guard, guard_mesh};
+use super::input::Columns;
+use super::objects::{MeshObject, NamedColumns, with_mesh_mut};
+use super::output::{Sink, Wanted, write};
+use super::rows::ATTRIBUTE_TYPES;
+use super::status::HolefillStatus;
+use super::structs::{blank, write_struct};
+use super::text::{read_text, write_text};
+use super::types::*;
 use crate::mesh::attributes::{
     AttributeValues, Attributes, ScalarType, ScalarValues, with_scalars,
 };
@@ -24,14 +20,6 @@ use std::ffi::c_char;
 
 /// Most components of an attribute.
 const MOST_COMPONENTS: u32 = 1024;
-
-/// An attribute as C knows it.
-pub(super) struct NamedColumns {
-    name: String,
-    scalar_type: HolefillType,
-    /// The names of its columns, one for each component.
-    columns: Vec<String>,
-}
 
 /// The names of the columns of an attribute.
 fn column_names(name: &str, components: u32) -> Vec<String> {
@@ -62,46 +50,38 @@ fn find(
     index: u64,
 ) -> Result<(&NamedColumns, &Attributes), Failure> {
     let place = place(element)?;
-    let list = &object.attributes[place];
-    let named = usize::try_from(index).ok().and_then(|i| list.get(i));
-    let named = named.ok_or_else(|| {
-        let message = format!("there is no attribute {index} among {}", list.len());
-        Failure::new(HOLEFILL_STATUS_NOT_FOUND, message)
-    })?;
+    let named = nth(&object.attributes[place], index, "attribute")?;
     let mesh = object.session.mesh();
     let attributes = [mesh.vertex_attributes(), mesh.face_attributes()][place];
     Ok((named, attributes))
 }
 
-fn column(
-    columns: &Columns,
-    scalar_type: HolefillType,
-    k: usize,
-    what: &str,
-) -> Result<ScalarValues, Failure> {
-    Ok(match scalar_type {
-        HOLEFILL_TYPE_I8 => ScalarValues::I8(columns.column(k, what)?),
-        HOLEFILL_TYPE_U8 => ScalarValues::U8(columns.column(k, what)?),
-        HOLEFILL_TYPE_I16 => ScalarValues::I16(columns.column(k, what)?),
-        HOLEFILL_TYPE_U16 => ScalarValues::U16(columns.column(k, what)?),
-        HOLEFILL_TYPE_I32 => ScalarValues::I32(columns.column(k, what)?),
-        HOLEFILL_TYPE_U32 => ScalarValues::U32(columns.column(k, what)?),
-        HOLEFILL_TYPE_F32 => ScalarValues::F32(columns.column(k, what)?),
-        _ => ScalarValues::F64(columns.column(k, what)?),
-    })
-}
+/// The types of attributes, here and in the mesh.
+macro_rules! scalar_types {
+    ($($number:ident $variant:ident)*) => {
+        fn column(columns: &Columns, k: usize, what: &str) -> Result<ScalarValues, Failure> {
+            match columns.rows.scalar_type {
+                $($number => Ok(ScalarValues::$variant(columns.column(k, what)?)),)*
+                other => Err(invalid(format!("{what} cannot have the type {other}"))),
+            }
+        }
 
-fn type_number(scalar_type: ScalarType) -> HolefillType {
-    match scalar_type {
-        ScalarType::I8 => HOLEFILL_TYPE_I8,
-        ScalarType::U8 => HOLEFILL_TYPE_U8,
-        ScalarType::I16 => HOLEFILL_TYPE_I16,
-        ScalarType::U16 => HOLEFILL_TYPE_U16,
-        ScalarType::I32 => HOLEFILL_TYPE_I32,
-        ScalarType::U32 => HOLEFILL_TYPE_U32,
-        ScalarType::F32 => HOLEFILL_TYPE_F32,
-        ScalarType::F64 => HOLEFILL_TYPE_F64,
-    }
+        fn type_number(scalar_type: ScalarType) -> HolefillType {
+            match scalar_type {
+                $(ScalarType::$variant => $number,)*
+            }
+        }
+    };
+}
+scalar_types! {
+    HOLEFILL_TYPE_I8 I8
+    HOLEFILL_TYPE_U8 U8
+    HOLEFILL_TYPE_I16 I16
+    HOLEFILL_TYPE_U16 U16
+    HOLEFILL_TYPE_I32 I32
+    HOLEFILL_TYPE_U32 U32
+    HOLEFILL_TYPE_F32 F32
+    HOLEFILL_TYPE_F64 F64
 }
 
 /// An attribute that was copied from the caller.
@@ -124,21 +104,21 @@ impl CopiedAttribute {
         what: &str,
     ) -> Result<Self, Failure> {
         // SAFETY: the caller's promise.
-        let (rows, scalar_type) = unsafe { Columns::check(values, components as usize, what)? };
-        if rows.count() != count {
+        let columns = unsafe { Columns::check(values, components as usize, what)? };
+        let rows = columns.rows.count;
+        if rows != count {
             return Err(invalid(format!(
-                "attribute {name} has {} rows for {count} elements",
-                rows.count()
+                "attribute {name} has {rows} rows for {count} elements"
             )));
         }
         let values: Result<Vec<ScalarValues>, Failure> = (0..components as usize)
-            .map(|k| column(&rows, scalar_type, k, what))
+            .map(|k| column(&columns, k, what))
             .collect();
         Ok(Self {
             values: values?,
             named: NamedColumns {
                 name: name.to_owned(),
-                scalar_type,
+                scalar_type: columns.rows.scalar_type,
                 columns: column_names(name, components),
             },
         })
@@ -160,7 +140,7 @@ impl CopiedAttribute {
 /// Adds an attribute to the vertices or the triangles of a mesh, and copies its values.
 ///
 /// `name` is UTF-8 and unique among those of the element. `values` has a row of `components` numbers for each vertex or
-/// triangle, those of patches included, of any type but `uint64_t`.
+/// triangle, those of patches included, of any type of at most 32 bits or `double`.
 ///
 /// A fill gives values to new vertices and triangles: floating-point numbers, and whatever is called `color`, are
 /// extended smoothly from the rim; three floating-point numbers called `normal` become the normals of the patch; all
@@ -181,7 +161,7 @@ pub unsafe extern "C" fn holefill_mesh_add_attribute(
     guard(error, || {
         let place = place(element)?;
         // SAFETY: the caller's promise.
-        let name = unsafe { read_text(name, "name")? }.ok_or_else(|| null("name"))?;
+        let name = unsafe { read_text(name, "name")? };
         if name.is_empty() || components == 0 || components > MOST_COMPONENTS {
             return Err(invalid(format!(
                 "an attribute needs a name and 1 to {MOST_COMPONENTS} components"
@@ -206,7 +186,7 @@ pub unsafe extern "C" fn holefill_mesh_add_attribute(
                 }
             }
             object.attributes[place].push(named);
-            Ok(HOLEFILL_STATUS_OK)
+            Ok(())
         })
     })
 }
@@ -221,13 +201,10 @@ pub unsafe extern "C" fn holefill_mesh_attribute_count(
     count: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard(error, || {
-        with_mesh(mesh.id, |object| {
-            let found = object.attributes[place(element)?].len();
-            // SAFETY: the caller's promise.
-            unsafe { write(count, found as u64, "count")? };
-            Ok(HOLEFILL_STATUS_OK)
-        })
+    guard_mesh(mesh, error, |object| {
+        let found = object.attributes[place(element)?].len();
+        // SAFETY: the caller's promise.
+        unsafe { write(count, found as u64, "count") }
     })
 }
 
@@ -242,19 +219,16 @@ pub unsafe extern "C" fn holefill_mesh_attribute_info(
     info: *mut HolefillAttributeInfo,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard(error, || {
-        with_mesh(mesh.id, |object| {
-            let (named, attributes) = find(object, element, index)?;
-            let value = HolefillAttributeInfo {
-                scalar_type: named.scalar_type,
-                components: named.columns.len() as u32,
-                count: attributes.len() as u64,
-                ..blank()
-            };
-            // SAFETY: the caller's promise.
-            unsafe { write_struct(info, &value, "info")? };
-            Ok(HOLEFILL_STATUS_OK)
-        })
+    guard_mesh(mesh, error, |object| {
+        let (named, attributes) = find(object, element, index)?;
+        let value = HolefillAttributeInfo {
+            scalar_type: named.scalar_type,
+            components: named.columns.len() as u32,
+            count: attributes.len() as u64,
+            ..blank()
+        };
+        // SAFETY: the caller's promise.
+        unsafe { write_struct(info, &value, "info") }
     })
 }
 
@@ -271,13 +245,10 @@ pub unsafe extern "C" fn holefill_mesh_attribute_name(
     length: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard(error, || {
-        with_mesh(mesh.id, |object| {
-            let (named, _) = find(object, element, index)?;
-            // SAFETY: the caller's promise.
-            unsafe { write_text(&named.name, buffer, capacity, length)? };
-            Ok(HOLEFILL_STATUS_OK)
-        })
+    guard_mesh(mesh, error, |object| {
+        let (named, _) = find(object, element, index)?;
+        // SAFETY: the caller's promise.
+        unsafe { write_text(&named.name, buffer, capacity, length) }
     })
 }
 
@@ -294,31 +265,28 @@ pub unsafe extern "C" fn holefill_mesh_read_attribute(
     output: *const HolefillOutput,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard(error, || {
-        with_mesh(mesh.id, |object| {
-            let (named, attributes) = find(object, element, index)?;
-            let wanted = Wanted {
-                first,
-                total: attributes.len(),
-                width: named.columns.len(),
-                allowed: &ATTRIBUTE_TYPES,
-            };
-            // SAFETY: the caller's promise.
-            let sink = unsafe { Sink::check(output, &wanted)? };
-            if !sink.is_of(named.scalar_type) && !sink.is_of(HOLEFILL_TYPE_F64) {
-                return Err(invalid(format!(
-                    "the attribute can be read as type {} or {HOLEFILL_TYPE_F64}",
-                    named.scalar_type
-                )));
-            }
-            for (k, name) in named.columns.iter().enumerate() {
-                let Some(AttributeValues::Scalars(values)) = attributes.get(name) else {
-                    continue;
-                };
+    guard_mesh(mesh, error, |object| {
+        let (named, attributes) = find(object, element, index)?;
+        let wanted = Wanted {
+            first,
+            total: attributes.len(),
+            width: named.columns.len(),
+            allowed: ATTRIBUTE_TYPES,
+        };
+        // SAFETY: the caller's promise.
+        let sink = unsafe { Sink::check(output, &wanted)? };
+        let own = named.scalar_type;
+        if !sink.is_of(own) && !sink.is_of(HOLEFILL_TYPE_F64) {
+            return Err(invalid(format!(
+                "the attribute can be read as type {own} or {HOLEFILL_TYPE_F64}"
+            )));
+        }
+        for (k, name) in named.columns.iter().enumerate() {
+            if let Some(AttributeValues::Scalars(values)) = attributes.get(name) {
                 write_column(&sink, k, values);
             }
-            Ok(HOLEFILL_STATUS_OK)
-        })
+        }
+        Ok(())
     })
 }
 

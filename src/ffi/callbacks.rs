@@ -5,7 +5,7 @@ use super::types::{
     HolefillFillOptions, HolefillLogCallback, HolefillLogLevel, HolefillProgress,
     HolefillProgressCallback,
 };
-use crate::fill::progress::Progress;
+use crate::fill::progress::{Progress, ProgressCallback};
 use crate::fill::report::{FillReport, HoleReport, HoleStatus};
 use std::ffi::{CString, c_void};
 use std::ops::ControlFlow;
@@ -66,12 +66,20 @@ impl Callbacks {
         }
     }
 
-    pub(super) fn has_progress(&self) -> bool {
-        self.progress.is_some()
+    /// Calls `work` with the progress callback, as the algorithms take it.
+    pub(super) fn with_progress<R>(
+        &self,
+        work: impl FnOnce(Option<ProgressCallback<'_>>) -> R,
+    ) -> R {
+        let tell = |progress: Progress| self.tell(progress);
+        match self.progress {
+            Some(_) => work(Some(&tell)),
+            None => work(None),
+        }
     }
 
     /// Tells how far the work has come, and asks whether to go on.
-    pub(super) fn tell(&self, progress: Progress) -> ControlFlow<()> {
+    fn tell(&self, progress: Progress) -> ControlFlow<()> {
         let Some(callback) = self.progress else {
             return ControlFlow::Continue(());
         };

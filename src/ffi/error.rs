@@ -1,18 +1,12 @@
 //! What a failing call said.
 
-use super::guard::{Failure, guard, guard_free};
-use super::memory::{write, write_text};
-use super::objects::{ERROR, Object, find, free, invalid_handle};
-use super::status::{HOLEFILL_STATUS_OK, HolefillStatus};
+use super::guard::guard_silent;
+use super::objects::{ERROR, free, with_error};
+use super::output::write;
+use super::status::HolefillStatus;
+use super::text::write_text;
 use super::types::HolefillError;
 use std::ffi::c_char;
-
-fn failure(error: HolefillError) -> Result<Failure, Failure> {
-    match &*find(ERROR, error.id)? {
-        Object::Error(place) => Ok(place.lock().unwrap_or_else(|e| e.into_inner()).clone()),
-        _ => Err(invalid_handle(ERROR)),
-    }
-}
 
 /// The status of the last call that failed with this error object.
 #[unsafe(no_mangle)]
@@ -20,11 +14,11 @@ pub unsafe extern "C" fn holefill_error_status(
     error: HolefillError,
     status: *mut HolefillStatus,
 ) -> HolefillStatus {
-    guard(std::ptr::null_mut(), || {
-        let failure = failure(error)?;
+    guard_silent(|| {
         // SAFETY: the caller's promise.
-        unsafe { write(status, failure.status, "status")? };
-        Ok(HOLEFILL_STATUS_OK)
+        with_error(error.id, |failure| unsafe {
+            write(status, failure.status, "status")
+        })
     })
 }
 
@@ -41,16 +35,16 @@ pub unsafe extern "C" fn holefill_error_message(
     capacity: u64,
     length: *mut u64,
 ) -> HolefillStatus {
-    guard(std::ptr::null_mut(), || {
-        let failure = failure(error)?;
+    guard_silent(|| {
         // SAFETY: the caller's promise.
-        unsafe { write_text(&failure.message, buffer, capacity, length)? };
-        Ok(HOLEFILL_STATUS_OK)
+        with_error(error.id, |failure| unsafe {
+            write_text(&failure.message, buffer, capacity, length)
+        })
     })
 }
 
 /// Frees an error object. The handle 0 is allowed.
 #[unsafe(no_mangle)]
 pub extern "C" fn holefill_error_free(error: HolefillError) -> HolefillStatus {
-    guard_free(|| free(ERROR, error.id))
+    guard_silent(|| free(ERROR, error.id))
 }

@@ -1,72 +1,65 @@
 //! Filling holes.
 
-use super::callbacks::Callbacks;
-use super::guard::{Failure, guard};
+use super::failure::{Failure, invalid, invalid_struct, nth};
+use super::guard::{guard, guard_mesh_mut};
+use super::input::read_indices;
 use super::loops::{loop_of_edge, loops_of_vertices, read_selection};
-use super::memory::{read_ids, write};
-use super::mesh::index;
-use super::objects::{Object, keep, with_mesh_mut};
+use super::objects::{MeshObject, Object, with_mesh_mut};
 use super::options::read_options;
+use super::output::hand_out;
 use super::status::{
-    HOLEFILL_STATUS_INCOMPLETE, HOLEFILL_STATUS_NOT_FOUND, HOLEFILL_STATUS_NOTHING_TO_UNDO,
-    HOLEFILL_STATUS_OK, HolefillStatus,
+    HOLEFILL_STATUS_INCOMPLETE, HOLEFILL_STATUS_NOTHING_TO_UNDO, HOLEFILL_STATUS_OK, HolefillStatus,
 };
-use super::types::{
-    HolefillError, HolefillFillOptions, HolefillInput, HolefillMesh, HolefillReport,
-    HolefillSelection,
-};
+use super::structs::read_struct;
+use super::types::*;
 use crate::boundary::select::Selection;
-use crate::fill::options::FillOptions;
-use crate::fill::progress::{Progress, ProgressCallback};
 use crate::fill::report::{FillReport, HoleStatus};
 use crate::fill::session::{FillSession, Target};
+use std::ptr;
 
-/// Which holes a call is about, as the caller names them.
-pub(super) enum Holes {
-    Loop(u64),
-    Edge(u64, u64),
-    Vertices(*const HolefillInput),
-    Loops(*const HolefillInput),
-    Selected(*const HolefillSelection),
-}
-
-impl Holes {
-    /// Reads what the caller points to and finds it in the mesh. That loops exist is checked here, since it is a
-    /// status of its own.
-    ///
-    /// # Safety
-    /// The pointers are as the exported functions say.
-    pub(super) unsafe fn find(self, session: &FillSession) -> Result<Wish, Failure> {
-        let ids = match self {
-            Self::Loop(id) => vec![index(id, "loop")?],
-            Self::Edge(from, to) => vec![loop_of_edge(session, from, to)?],
-            // SAFETY: the caller's promise.
-            Self::Vertices(vertices) => unsafe { loops_of_vertices(session, vertices)? },
-            // SAFETY: the caller's promise.
-            Self::Loops(loops) => unsafe { read_ids(loops, "loops")? },
-            Self::Selected(selection) => {
-                // SAFETY: the caller's promise.
-                return Ok(Wish::Selected(unsafe { read_selection(selection)? }));
-            }
-        };
-        let count = session.boundary().loops.len();
-        match ids.iter().find(|&&id| id >= count) {
-            Some(id) => Err(Failure::new(
-                HOLEFILL_STATUS_NOT_FOUND,
-                format!("there is no loop {id} among {count}"),
-            )),
-            None => Ok(Wish::Loops(ids)),
-        }
-    }
-}
-
-/// Which holes a call is about, found.
+/// Which holes a call is about, found in the mesh.
 pub(super) enum Wish {
     Loops(Vec<usize>),
     Selected(Selection),
 }
 
 impl Wish {
+    /// Reads what the caller points to, and finds it in the mesh. That a loop exists is checked here: it has a status of
+    /// its own.
+    ///
+    /// # Safety
+    /// `target` is null or points to a struct as its first fields say, whose pointers are the caller's.
+    pub(super) unsafe fn read(
+        target: *const HolefillTarget,
+        session: &FillSession,
+    ) -> Result<Self, Failure> {
+        // SAFETY: the caller's promise.
+        let Some(target) = (unsafe { read_struct(target, "target")? }) else {
+            return Ok(Self::Selected(Selection::default()));
+        };
+        if target.reserved != 0 {
+            return Err(invalid_struct(
+                "target has a reserved field that is not zero",
+            ));
+        }
+        let loops = &session.boundary().loops;
+        // SAFETY: the caller's promise, for every pointer.
+        unsafe {
+            Ok(match target.kind {
+                HOLEFILL_TARGET_SELECTED => Self::Selected(read_selection(target.selection)?),
+                HOLEFILL_TARGET_LOOP => Self::Loops(vec![nth(loops, target.loop_id, "loop")?.id]),
+                HOLEFILL_TARGET_EDGE => Self::Loops(vec![loop_of_edge(session, target.edge)?]),
+                HOLEFILL_TARGET_VERTICES => Self::Loops(loops_of_vertices(session, target.ids)?),
+                HOLEFILL_TARGET_LOOPS => {
+                    let ids = read_indices::<1>(target.ids, "ids")?.into_iter();
+                    let known = ids.map(|[id]| Ok(nth(loops, id.into(), "loop")?.id));
+                    Self::Loops(known.collect::<Result<_, Failure>>()?)
+                }
+                kind => return Err(invalid(format!("there is no kind {kind} of target"))),
+            })
+        }
+    }
+
     pub(super) fn target(&self) -> Target<'_> {
         match self {
             Self::Loops(ids) => Target::Loops(ids),
@@ -84,43 +77,49 @@ pub(super) fn status_of(report: &FillReport) -> HolefillStatus {
     }
 }
 
-/// Calls `work` with the options and the callback that it takes.
-pub(super) fn with_callback<R>(
-    options: FillOptions,
-    callbacks: &Callbacks,
-    work: impl FnOnce(&FillOptions, Option<ProgressCallback<'_>>) -> R,
-) -> R {
-    let tell = |progress: Progress| callbacks.tell(progress);
-    let callback: Option<ProgressCallback<'_>> = match callbacks.has_progress() {
-        true => Some(&tell),
-        false => None,
-    };
-    work(&options, callback)
-}
-
-/// Keeps a report if the caller wants it.
+/// Changes a mesh by `work`, and hands out the report if the caller wants it. When that fails the mesh is as before.
 ///
 /// # Safety
 /// `place` is null or points to a handle.
-pub(super) unsafe fn hand_out(
-    report: FillReport,
+pub(super) unsafe fn change(
+    object: &mut MeshObject,
     place: *mut HolefillReport,
-) -> Result<(), Failure> {
-    if place.is_null() {
-        return Ok(());
+    work: impl FnOnce(&mut FillSession) -> Result<FillReport, Failure>,
+) -> Result<FillReport, Failure> {
+    let session = &mut object.session;
+    let before = session.undo_count();
+    let report = work(session)?;
+    if !place.is_null() {
+        let kept = Object::Report(report.clone());
+        // SAFETY: the caller's promise.
+        if let Err(failure) = unsafe { hand_out(kept, place, "report") } {
+            if session.undo_count() > before {
+                session.undo();
+            }
+            return Err(failure);
+        }
     }
-    let id = keep(Object::Report(report))?;
-    // SAFETY: not null, and the caller's promise.
-    unsafe { write(place, HolefillReport { id }, "report") }
+    Ok(report)
 }
 
-/// Fills holes of a mesh.
+/// Fills holes. Everything that was in the mesh stays bit for bit and keeps its index. New vertices and triangles are
+/// appended, oriented like those round the hole.
 ///
-/// # Safety
-/// The pointers are as the exported functions say.
-unsafe fn fill(
+/// `target` says which holes; null is every open loop. They are filled in parallel and appended in the order of the ids of
+/// their loops. An island is filled together with the loop that it lies in, if both are asked for. A hole that stays open
+/// does not keep the others from being filled.
+///
+/// `options` may be null. `report` may be null; otherwise it gets what happened: an entry for each loop that was named, or,
+/// for `HOLEFILL_TARGET_SELECTED`, for every loop of the mesh.
+///
+/// Statuses: `INCOMPLETE` when a hole stays open that was asked for: the report says why; `NOT_FOUND` for a loop, an edge
+/// or a chain that the mesh does not have; `INVALID_ARGUMENT` for a loop that was closed before, an option that is not
+/// allowed, an unknown kind of target or an edge of the rules that is on no loop; `TOPOLOGY` for a loop that cannot be
+/// filled; `CANCELLED`; `BUSY`. With any but `OK` and `INCOMPLETE` nothing was changed and no report written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn holefill_mesh_fill(
     mesh: HolefillMesh,
-    holes: Holes,
+    target: *const HolefillTarget,
     options: *const HolefillFillOptions,
     report: *mut HolefillReport,
     error: *mut HolefillError,
@@ -128,105 +127,29 @@ unsafe fn fill(
     guard(error, || {
         // SAFETY: the caller's promise.
         let (options, callbacks) = unsafe { read_options(options)? };
-        let (status, filled) = with_mesh_mut(mesh.id, |object| {
-            let session = &mut object.session;
+        let fill = |session: &mut FillSession| {
             // SAFETY: the caller's promise.
-            let wish = unsafe { holes.find(session)? };
-            let before = session.undo_count();
-            let filled = with_callback(options, &callbacks, |options, progress| {
-                session.fill(wish.target(), options, progress)
-            })?;
-            let status = status_of(&filled);
-            // SAFETY: the caller's promise.
-            if let Err(failure) = unsafe { hand_out(filled.clone(), report) } {
-                if session.undo_count() > before {
-                    session.undo();
-                }
-                return Err(failure);
-            }
-            Ok((status, filled))
-        })?;
+            let wish = unsafe { Wish::read(target, session)? };
+            Ok(callbacks
+                .with_progress(|progress| session.fill(wish.target(), &options, progress))?)
+        };
+        // SAFETY: the caller's promise.
+        let filled = with_mesh_mut(mesh.id, |object| unsafe { change(object, report, fill) })?;
         callbacks.log(&filled);
-        Ok(status)
+        Ok(status_of(&filled))
     })
 }
 
-/// Fills the hole of the loop `loop_id`. Everything that was in the mesh stays bit for bit and keeps its index; new
-/// vertices and triangles are appended, oriented like those round the hole.
+/// Fills every open loop with the default options: `holefill_mesh_fill` with null for everything else.
 ///
-/// `options` may be null. `report` may be null; otherwise it gets a report with one entry, which says what was appended.
-///
-/// Statuses: `INCOMPLETE` when the hole stays open: nothing was changed, and the report says why; `NOT_FOUND`;
-/// `INVALID_ARGUMENT` for a loop that was closed before or an option that is not allowed; `TOPOLOGY` for a loop that
-/// cannot be filled; `CANCELLED`; `BUSY`. With any but `OK` and `INCOMPLETE` nothing was changed and no report written.
+/// Statuses: as `holefill_mesh_fill`.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn holefill_mesh_fill_loop(
+pub unsafe extern "C" fn holefill_mesh_fill_all(
     mesh: HolefillMesh,
-    loop_id: u64,
-    options: *const HolefillFillOptions,
-    report: *mut HolefillReport,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    // SAFETY: the caller's promise.
-    unsafe { fill(mesh, Holes::Loop(loop_id), options, report, error) }
-}
-
-/// As `holefill_mesh_fill_loop`, for the loop through the boundary edge from vertex `from` to vertex `to`, as it runs in
-/// its triangle.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn holefill_mesh_fill_edge(
-    mesh: HolefillMesh,
-    from: u64,
-    to: u64,
-    options: *const HolefillFillOptions,
-    report: *mut HolefillReport,
-    error: *mut HolefillError,
-) -> HolefillStatus {
-    // SAFETY: the caller's promise.
-    unsafe { fill(mesh, Holes::Edge(from, to), options, report, error) }
-}
-
-/// As `holefill_mesh_fill_loops`, for the loops that the closed chain `vertices` consists of: see
-/// `holefill_mesh_find_vertices`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn holefill_mesh_fill_vertices(
-    mesh: HolefillMesh,
-    vertices: *const HolefillInput,
-    options: *const HolefillFillOptions,
-    report: *mut HolefillReport,
-    error: *mut HolefillError,
-) -> HolefillStatus {
-    // SAFETY: the caller's promise.
-    unsafe { fill(mesh, Holes::Vertices(vertices), options, report, error) }
-}
-
-/// As `holefill_mesh_fill_loop`, for several loops: `loops` has rows of one id, `uint32_t` or `uint64_t`. They are filled
-/// in parallel and appended in the order of their ids; an island together with the loop that it lies in, if both are
-/// named. The report has an entry for each loop. A hole that stays open does not keep the others from being filled.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn holefill_mesh_fill_loops(
-    mesh: HolefillMesh,
-    loops: *const HolefillInput,
-    options: *const HolefillFillOptions,
-    report: *mut HolefillReport,
-    error: *mut HolefillError,
-) -> HolefillStatus {
-    // SAFETY: the caller's promise.
-    unsafe { fill(mesh, Holes::Loops(loops), options, report, error) }
-}
-
-/// As `holefill_mesh_fill_loops`, for all open loops that the rules choose; with `selection` null for all open loops. The
-/// report has an entry for every loop of the mesh.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn holefill_mesh_fill_selected(
-    mesh: HolefillMesh,
-    selection: *const HolefillSelection,
-    options: *const HolefillFillOptions,
-    report: *mut HolefillReport,
-    error: *mut HolefillError,
-) -> HolefillStatus {
-    // SAFETY: the caller's promise.
-    unsafe { fill(mesh, Holes::Selected(selection), options, report, error) }
+    // SAFETY: the caller's promise, and null is allowed.
+    unsafe { holefill_mesh_fill(mesh, ptr::null(), ptr::null(), ptr::null_mut(), error) }
 }
 
 /// Takes the last fill or apply back that appended something: its vertices, triangles and attribute values are removed,
@@ -238,10 +161,8 @@ pub unsafe extern "C" fn holefill_mesh_undo(
     mesh: HolefillMesh,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard(error, || {
-        with_mesh_mut(mesh.id, |object| match object.session.undo() {
-            true => Ok(HOLEFILL_STATUS_OK),
-            false => Err(Failure::of(HOLEFILL_STATUS_NOTHING_TO_UNDO)),
-        })
+    guard_mesh_mut(mesh, error, |object| match object.session.undo() {
+        true => Ok(()),
+        false => Err(Failure::of(HOLEFILL_STATUS_NOTHING_TO_UNDO)),
     })
 }

@@ -1,22 +1,13 @@
 //! Boundary loops: counted, described, found and chosen.
 
-use super::guard::{Failure, guard};
-use super::memory::{
-    blank, null, read_indices, read_optional_indices, read_struct, write, write_ids, write_indices,
-    write_struct,
-};
-use super::mesh::MeshObject;
-use super::objects::with_mesh;
-use super::status::{
-    HOLEFILL_STATUS_INDEX_OUT_OF_RANGE, HOLEFILL_STATUS_NOT_FOUND, HOLEFILL_STATUS_OK,
-    HolefillStatus,
-};
-use super::types::{
-    HOLEFILL_CLASS_ISLAND, HOLEFILL_CLASS_NOT_ORIENTED, HOLEFILL_CLASS_OPEN_CHAIN,
-    HOLEFILL_CLASS_OUTER_RIM, HOLEFILL_CLASS_SIMPLE, HOLEFILL_CLASS_TOUCHING, HolefillClass,
-    HolefillError, HolefillInput, HolefillLoopInfo, HolefillMesh, HolefillOutput,
-    HolefillSelection,
-};
+use super::failure::{Failure, not_found, nth};
+use super::guard::{guard_mesh, guard_silent};
+use super::input::{read_indices, read_optional_indices};
+use super::objects::MeshObject;
+use super::output::{write, write_indices, write_list};
+use super::status::{HOLEFILL_STATUS_INDEX_OUT_OF_RANGE, HolefillStatus};
+use super::structs::{blank, init_struct, read_struct, write_struct};
+use super::types::*;
 use crate::boundary::classify::LoopClass;
 use crate::boundary::loops::BoundaryLoop;
 use crate::boundary::select::Selection;
@@ -34,15 +25,22 @@ pub(super) fn class_number(class: LoopClass) -> HolefillClass {
 }
 
 fn find_loop(object: &MeshObject, id: u64) -> Result<&BoundaryLoop, Failure> {
-    let loops = &object.session.boundary().loops;
-    usize::try_from(id)
-        .ok()
-        .and_then(|id| loops.get(id))
-        .ok_or_else(|| not_found(format!("there is no loop {id} among {}", loops.len())))
+    nth(&object.session.boundary().loops, id, "loop")
 }
 
-fn not_found(message: String) -> Failure {
-    Failure::new(HOLEFILL_STATUS_NOT_FOUND, message)
+/// Writes a list of ids and its length.
+///
+/// # Safety
+/// As [`write_list`].
+unsafe fn write_ids(
+    found: &[usize],
+    ids: *mut u64,
+    capacity: u64,
+    count: *mut u64,
+) -> Result<(), Failure> {
+    let found: Vec<u64> = found.iter().map(|&id| id as u64).collect();
+    // SAFETY: the caller's promise.
+    unsafe { write_list(&found, &[], (ids, capacity, "ids"), (count, "count")) }
 }
 
 /// Number of boundary loops that the mesh was made with. Their ids are the numbers below it. They keep them whatever is
@@ -55,13 +53,10 @@ pub unsafe extern "C" fn holefill_mesh_loop_count(
     count: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard(error, || {
-        with_mesh(mesh.id, |object| {
-            let loops = object.session.boundary().loops.len();
-            // SAFETY: the caller's promise.
-            unsafe { write(count, loops as u64, "count")? };
-            Ok(HOLEFILL_STATUS_OK)
-        })
+    guard_mesh(mesh, error, |object| {
+        let loops = object.session.boundary().loops.len();
+        // SAFETY: the caller's promise.
+        unsafe { write(count, loops as u64, "count") }
     })
 }
 
@@ -75,33 +70,31 @@ pub unsafe extern "C" fn holefill_mesh_loop_info(
     info: *mut HolefillLoopInfo,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard(error, || {
-        with_mesh(mesh.id, |object| {
-            let l = find_loop(object, loop_id)?;
-            let value = HolefillLoopInfo {
-                loop_id,
-                edge_count: l.edge_count() as u64,
-                vertex_count: l.vertices.len() as u64,
-                edge: l.edge().map(u64::from),
-                perimeter: l.perimeter,
-                vector_area: l.vector_area,
-                diameter: l.diameter,
-                planarity: l.planarity,
-                loop_class: class_number(l.class),
-                is_open: object.session.is_open(l.id).into(),
-                ..blank()
-            };
-            // SAFETY: the caller's promise.
-            unsafe { write_struct(info, &value, "info")? };
-            Ok(HOLEFILL_STATUS_OK)
-        })
+    guard_mesh(mesh, error, |object| {
+        let l = find_loop(object, loop_id)?;
+        let value = HolefillLoopInfo {
+            loop_id,
+            edge_count: l.edge_count() as u64,
+            vertex_count: l.vertices.len() as u64,
+            edge: l.edge().map(u64::from),
+            perimeter: l.perimeter,
+            vector_area: l.vector_area,
+            diameter: l.diameter,
+            planarity: l.planarity,
+            loop_class: class_number(l.class),
+            is_open: object.session.is_open(l.id).into(),
+            ..blank()
+        };
+        // SAFETY: the caller's promise.
+        unsafe { write_struct(info, &value, "info") }
     })
 }
 
 /// Copies the vertices of a loop from position `first` on, in the direction in which its triangles run: `output` has rows
-/// of one, `uint32_t` or `uint64_t`, as many as are wanted.
+/// of one, of 32 or 64 bits, as many as are wanted.
 ///
-/// Statuses: `NOT_FOUND` for no such loop or more vertices than it has.
+/// Statuses: `NOT_FOUND` for no such loop or more vertices than it has; `LIMIT` for an index that the type has no room
+/// for.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn holefill_mesh_read_loop(
     mesh: HolefillMesh,
@@ -110,13 +103,10 @@ pub unsafe extern "C" fn holefill_mesh_read_loop(
     output: *const HolefillOutput,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard(error, || {
-        with_mesh(mesh.id, |object| {
-            let (vertices, _) = find_loop(object, loop_id)?.vertices.as_chunks::<1>();
-            // SAFETY: the caller's promise.
-            unsafe { write_indices(output, first, vertices)? };
-            Ok(HOLEFILL_STATUS_OK)
-        })
+    guard_mesh(mesh, error, |object| {
+        let (vertices, _) = find_loop(object, loop_id)?.vertices.as_chunks::<1>();
+        // SAFETY: the caller's promise.
+        unsafe { write_indices(output, first, vertices) }
     })
 }
 
@@ -131,36 +121,27 @@ pub unsafe extern "C" fn holefill_mesh_find_edge(
     loop_id: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard(error, || {
-        with_mesh(mesh.id, |object| {
-            let id = loop_of_edge(&object.session, from, to)?;
-            // SAFETY: the caller's promise.
-            unsafe { write(loop_id, id as u64, "loop_id")? };
-            Ok(HOLEFILL_STATUS_OK)
-        })
+    guard_mesh(mesh, error, |object| {
+        let id = loop_of_edge(&object.session, [from, to])?;
+        // SAFETY: the caller's promise.
+        unsafe { write(loop_id, id as u64, "loop_id") }
     })
 }
 
-pub(super) fn loop_of_edge(session: &FillSession, from: u64, to: u64) -> Result<usize, Failure> {
+pub(super) fn loop_of_edge(session: &FillSession, edge: [u64; 2]) -> Result<usize, Failure> {
     let count = session.mesh().positions().len();
-    let vertex = |v: u64| {
-        u32::try_from(v)
-            .ok()
-            .filter(|&v| (v as usize) < count)
-            .ok_or_else(|| {
-                let message = format!("there is no vertex {v} among {count}");
-                Failure::new(HOLEFILL_STATUS_INDEX_OUT_OF_RANGE, message)
-            })
-    };
-    let edge = [vertex(from)?, vertex(to)?];
+    if let Some(v) = edge.into_iter().find(|&v| v >= count as u64) {
+        let message = format!("there is no vertex {v} among {count}");
+        return Err(Failure::new(HOLEFILL_STATUS_INDEX_OUT_OF_RANGE, message));
+    }
     session
-        .loop_with_edge(edge)
+        .loop_with_edge(edge.map(|v| v as u32))
         .map_err(|e| not_found(e.to_string()))
 }
 
-/// The loops that the closed chain `vertices` consists of: rows of one, `uint32_t` or `uint64_t`, the last joined to the
-/// first. It may start anywhere and run either way. Where it visits a vertex twice it passes through more than one loop:
-/// loops are cut where the boundary touches itself.
+/// The loops that the closed chain `vertices` consists of: rows of one, of 32 or 64 bits, the last joined to the first.
+/// It may start anywhere and run either way. Where it visits a vertex twice it passes through more than one loop: loops
+/// are cut where the boundary touches itself.
 ///
 /// `ids` gets the ids, ascending, and `count` their number, also when they do not fit into `capacity`. With `ids` null
 /// and `capacity` 0 only the number is written.
@@ -175,14 +156,12 @@ pub unsafe extern "C" fn holefill_mesh_find_vertices(
     count: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard(error, || {
-        with_mesh(mesh.id, |object| {
-            // SAFETY: the caller's promise.
-            let found = unsafe { loops_of_vertices(&object.session, vertices)? };
-            // SAFETY: the caller's promise.
-            unsafe { write_ids(&found, ids, capacity, count)? };
-            Ok(HOLEFILL_STATUS_OK)
-        })
+    guard_mesh(mesh, error, |object| {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let found = loops_of_vertices(&object.session, vertices)?;
+            write_ids(&found, ids, capacity, count)
+        }
     })
 }
 
@@ -213,19 +192,16 @@ pub unsafe extern "C" fn holefill_mesh_select(
     count: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard(error, || {
-        with_mesh(mesh.id, |object| {
-            // SAFETY: the caller's promise.
-            let rules = unsafe { read_selection(selection)? };
-            let session = &object.session;
-            let kept = rules.reasons_to_keep(session.boundary())?;
-            let chosen: Vec<usize> = (0..kept.len())
-                .filter(|&id| kept[id].is_none() && session.is_open(id))
-                .collect();
-            // SAFETY: the caller's promise.
-            unsafe { write_ids(&chosen, ids, capacity, count)? };
-            Ok(HOLEFILL_STATUS_OK)
-        })
+    guard_mesh(mesh, error, |object| {
+        // SAFETY: the caller's promise.
+        let rules = unsafe { read_selection(selection)? };
+        let session = &object.session;
+        let kept = rules.reasons_to_keep(session.boundary())?;
+        let chosen: Vec<usize> = (0..kept.len())
+            .filter(|&id| kept[id].is_none() && session.is_open(id))
+            .collect();
+        // SAFETY: the caller's promise.
+        unsafe { write_ids(&chosen, ids, capacity, count) }
     })
 }
 
@@ -256,12 +232,6 @@ pub unsafe extern "C" fn holefill_selection_init(
     selection: *mut HolefillSelection,
     struct_size: u32,
 ) -> HolefillStatus {
-    guard(std::ptr::null_mut(), || {
-        if selection.is_null() {
-            return Err(null("selection"));
-        }
-        // SAFETY: not null, and the caller's promise.
-        unsafe { super::memory::init_struct(selection, struct_size, "selection")? };
-        Ok(HOLEFILL_STATUS_OK)
-    })
+    // SAFETY: the caller's promise.
+    guard_silent(|| unsafe { init_struct(selection, struct_size, "selection") })
 }

@@ -1,12 +1,13 @@
 //! Options, parameters by name, and the list of methods.
 
 use super::callbacks::Callbacks;
-use super::guard::{Failure, guard, guard_free, guard_value};
-use super::memory::{init_struct, invalid, null, read_struct, read_text, write, write_text};
-use super::objects::{Object, PARAMETERS, free, keep, with_parameters};
-use super::status::{
-    HOLEFILL_STATUS_LIMIT, HOLEFILL_STATUS_NOT_FOUND, HOLEFILL_STATUS_OK, HolefillStatus,
-};
+use super::failure::{Failure, invalid, not_found};
+use super::guard::{guard, guard_silent, guard_value};
+use super::objects::{Object, PARAMETERS, free, with_parameters};
+use super::output::hand_out;
+use super::status::{HOLEFILL_STATUS_LIMIT, HolefillStatus};
+use super::structs::{init_struct, read_struct};
+use super::text::{owned, read_optional_text, read_text, write_text};
 use super::types::{HolefillError, HolefillFillOptions, HolefillParameters};
 use crate::fill::method::Method;
 use crate::fill::options::{FillOptions, Parameter};
@@ -33,32 +34,21 @@ pub(super) unsafe fn read_options(
         id => with_parameters(id, |parameters| Ok(parameters.clone()))?,
     };
     // SAFETY: the caller's promise.
-    if let Some(method) = unsafe { read_text(given.method, "method")? } {
+    if let Some(method) = unsafe { read_optional_text(given.method, "method")? } {
         read.method = method.parse()?;
     }
     read.seed = given.seed;
     read.threads = check_threads(given.threads)?;
-    // The parameters' own ranges hold for the fields too.
-    for (name, value, is_given) in [
-        (
-            "fill.time-budget",
-            given.time_budget.to_string(),
-            given.time_budget != 0.0,
-        ),
-        (
-            "refine.density",
-            given.density.to_string(),
-            given.density != 0.0,
-        ),
-        (
-            "refine.max-vertices",
-            given.max_new_vertices.to_string(),
-            given.max_new_vertices != 0,
-        ),
-    ] {
-        if is_given {
-            read.set(name, &value)?;
-        }
+    // The ranges of the parameters hold for the fields too.
+    if given.time_budget != 0.0 {
+        read.set("fill.time-budget", &given.time_budget.to_string())?;
+    }
+    if given.density != 0.0 {
+        read.set("refine.density", &given.density.to_string())?;
+    }
+    if given.max_new_vertices != 0 {
+        let most = given.max_new_vertices.to_string();
+        read.set("refine.max-vertices", &most)?;
     }
     // SAFETY: the caller's promise is that both can be called during the call.
     Ok((read, unsafe { Callbacks::new(&given) }))
@@ -81,14 +71,8 @@ pub unsafe extern "C" fn holefill_fill_options_init(
     options: *mut HolefillFillOptions,
     struct_size: u32,
 ) -> HolefillStatus {
-    guard(ptr::null_mut(), || {
-        if options.is_null() {
-            return Err(null("options"));
-        }
-        // SAFETY: not null, and the caller's promise.
-        unsafe { init_struct(options, struct_size, "options")? };
-        Ok(HOLEFILL_STATUS_OK)
-    })
+    // SAFETY: the caller's promise.
+    guard_silent(|| unsafe { init_struct(options, struct_size, "options") })
 }
 
 /// Makes a set of parameters with their defaults.
@@ -98,20 +82,16 @@ pub unsafe extern "C" fn holefill_parameters_new(
     error: *mut HolefillError,
 ) -> HolefillStatus {
     guard(error, || {
-        if parameters.is_null() {
-            return Err(null("parameters"));
-        }
-        let id = keep(Object::Parameters(Mutex::new(FillOptions::default())))?;
-        // SAFETY: not null, and the caller's promise.
-        unsafe { write(parameters, HolefillParameters { id }, "parameters")? };
-        Ok(HOLEFILL_STATUS_OK)
+        let made = Object::Parameters(Mutex::new(FillOptions::default()));
+        // SAFETY: the caller's promise.
+        unsafe { hand_out(made, parameters, "parameters") }
     })
 }
 
 /// Frees a set of parameters. The handle 0 is allowed. Calls that were given it have read it already.
 #[unsafe(no_mangle)]
 pub extern "C" fn holefill_parameters_free(parameters: HolefillParameters) -> HolefillStatus {
-    guard_free(|| free(PARAMETERS, parameters.id))
+    guard_silent(|| free(PARAMETERS, parameters.id))
 }
 
 /// Sets a parameter by its name to a value in text, as `holefill_parameter_allowed` describes it.
@@ -127,15 +107,12 @@ pub unsafe extern "C" fn holefill_parameters_set(
 ) -> HolefillStatus {
     guard(error, || {
         // SAFETY: the caller's promise.
-        let name = unsafe { read_text(name, "name")? }.ok_or_else(|| null("name"))?;
-        // SAFETY: the caller's promise.
-        let value = unsafe { read_text(value, "value")? }.ok_or_else(|| null("value"))?;
+        let (name, value) = unsafe { (read_text(name, "name")?, read_text(value, "value")?) };
         with_parameters(parameters.id, |options| {
             options.set(name, value).map_err(|e| match find(name) {
                 Some(_) => invalid(e.to_string()),
-                None => Failure::new(HOLEFILL_STATUS_NOT_FOUND, e.to_string()),
-            })?;
-            Ok(HOLEFILL_STATUS_OK)
+                None => not_found(e.to_string()),
+            })
         })
     })
 }
@@ -154,15 +131,12 @@ pub unsafe extern "C" fn holefill_parameters_get(
 ) -> HolefillStatus {
     guard(error, || {
         // SAFETY: the caller's promise.
-        let name = unsafe { read_text(name, "name")? }.ok_or_else(|| null("name"))?;
+        let name = unsafe { read_text(name, "name")? };
         with_parameters(parameters.id, |options| {
-            let parameter = find(name).ok_or_else(|| {
-                let message = format!("there is no parameter '{name}'");
-                Failure::new(HOLEFILL_STATUS_NOT_FOUND, message)
-            })?;
+            let unknown = || not_found(format!("there is no parameter '{name}'"));
+            let value = find(name).ok_or_else(unknown)?.value(options);
             // SAFETY: the caller's promise.
-            unsafe { write_text(&parameter.value(options), buffer, capacity, length)? };
-            Ok(HOLEFILL_STATUS_OK)
+            unsafe { write_text(&value, buffer, capacity, length) }
         })
     })
 }
@@ -171,53 +145,35 @@ fn find(name: &str) -> Option<&'static Parameter> {
     FillOptions::parameters().find(|p| p.name == name)
 }
 
-/// The texts about a method or a parameter, ended by zero bytes.
-struct Texts {
-    name: CString,
-    help: CString,
-    allowed: CString,
-    default: CString,
-}
-
-/// None of these texts has a zero byte.
-fn text(text: &str) -> CString {
-    CString::new(text).unwrap_or_default()
-}
-
-static METHODS: LazyLock<Vec<Texts>> = LazyLock::new(|| {
-    let texts = |m: Method| Texts {
-        name: text(m.name()),
-        help: text(m.summary()),
-        allowed: CString::default(),
-        default: CString::default(),
-    };
+/// Name and summary of each method.
+static METHODS: LazyLock<Vec<[CString; 2]>> = LazyLock::new(|| {
+    let texts = |m: Method| [m.name(), m.summary()].map(owned);
     Method::ALL.into_iter().map(texts).collect()
 });
 
-static PARAMETER_TEXTS: LazyLock<Vec<Texts>> = LazyLock::new(|| {
+/// Name, help, allowed values and default of each parameter.
+static PARAMETER_TEXTS: LazyLock<Vec<[CString; 4]>> = LazyLock::new(|| {
     let defaults = FillOptions::default();
-    let texts = |p: &Parameter| Texts {
-        name: text(p.name),
-        help: text(p.help),
-        allowed: text(p.allowed),
-        default: text(&p.value(&defaults)),
-    };
+    let texts = |p: &Parameter| [p.name, p.help, p.allowed, &p.value(&defaults)].map(owned);
     FillOptions::parameters().map(texts).collect()
 });
 
 /// The name of a method as static text.
 pub(super) fn method_text(method: Method) -> *const c_char {
     let place = Method::ALL.iter().position(|&m| m == method);
-    place.map_or(ptr::null(), |i| METHODS[i].name.as_ptr())
+    place.map_or(ptr::null(), |i| METHODS[i][0].as_ptr())
 }
 
-fn entry(
-    list: &'static [Texts],
+/// Text `field` of entry `index` of a list; null when there is none.
+fn text<const N: usize>(
+    list: &'static LazyLock<Vec<[CString; N]>>,
     index: u64,
-    field: impl Fn(&'static Texts) -> &'static CString,
+    field: usize,
 ) -> *const c_char {
-    let texts = usize::try_from(index).ok().and_then(|i| list.get(i));
-    texts.map_or(ptr::null(), |t| field(t).as_ptr())
+    guard_value(ptr::null(), || {
+        let entry = usize::try_from(index).ok().and_then(|i| list.get(i));
+        entry.map_or(ptr::null(), |texts| texts[field].as_ptr())
+    })
 }
 
 /// Number of methods of this version of the library.
@@ -229,13 +185,13 @@ pub extern "C" fn holefill_method_count() -> u64 {
 /// The name of method `index`, as options take it; null when there is none. Static, never freed.
 #[unsafe(no_mangle)]
 pub extern "C" fn holefill_method_name(index: u64) -> *const c_char {
-    guard_value(ptr::null(), || entry(&METHODS, index, |t| &t.name))
+    text(&METHODS, index, 0)
 }
 
 /// What method `index` does, in one line; null when there is none. Static, never freed.
 #[unsafe(no_mangle)]
 pub extern "C" fn holefill_method_summary(index: u64) -> *const c_char {
-    guard_value(ptr::null(), || entry(&METHODS, index, |t| &t.help))
+    text(&METHODS, index, 1)
 }
 
 /// Number of parameters that can be set by name in this version of the library.
@@ -247,27 +203,23 @@ pub extern "C" fn holefill_parameter_count() -> u64 {
 /// The name of parameter `index`, such as `refine.density`; null when there is none. Static, never freed.
 #[unsafe(no_mangle)]
 pub extern "C" fn holefill_parameter_name(index: u64) -> *const c_char {
-    guard_value(ptr::null(), || entry(&PARAMETER_TEXTS, index, |t| &t.name))
+    text(&PARAMETER_TEXTS, index, 0)
 }
 
 /// What parameter `index` does, with its unit; null when there is none. Static, never freed.
 #[unsafe(no_mangle)]
 pub extern "C" fn holefill_parameter_help(index: u64) -> *const c_char {
-    guard_value(ptr::null(), || entry(&PARAMETER_TEXTS, index, |t| &t.help))
+    text(&PARAMETER_TEXTS, index, 1)
 }
 
 /// The values that parameter `index` takes, in words; null when there is none. Static, never freed.
 #[unsafe(no_mangle)]
 pub extern "C" fn holefill_parameter_allowed(index: u64) -> *const c_char {
-    guard_value(ptr::null(), || {
-        entry(&PARAMETER_TEXTS, index, |t| &t.allowed)
-    })
+    text(&PARAMETER_TEXTS, index, 2)
 }
 
 /// The default of parameter `index` in text; null when there is none. Static, never freed.
 #[unsafe(no_mangle)]
 pub extern "C" fn holefill_parameter_default(index: u64) -> *const c_char {
-    guard_value(ptr::null(), || {
-        entry(&PARAMETER_TEXTS, index, |t| &t.default)
-    })
+    text(&PARAMETER_TEXTS, index, 3)
 }

@@ -2,17 +2,20 @@
 
 use super::attributes::CopiedAttribute;
 use super::callbacks::Callbacks;
-use super::guard::{Failure, guard};
-use super::memory::{blank, check_struct, null, read_struct, write_struct};
-use super::mesh::{MeshObject, hand_out, read_finite, read_optional};
+use super::failure::{Failure, not_null};
+use super::guard::guard;
+use super::input::{read_finite, read_optional};
+use super::objects::MeshObject;
 use super::options::check_threads;
+use super::output::hand_out;
 use super::status::HolefillStatus;
+use super::structs::{blank, check_struct, read_struct, write_struct};
 use super::types::{
     HolefillError, HolefillInput, HolefillMesh, HolefillPointOptions, HolefillPointSummary,
 };
 use crate::fill::options::FillOptions;
 use crate::fill::pipeline::thread_pool;
-use crate::fill::progress::{Progress, ProgressCallback, Watch};
+use crate::fill::progress::Watch;
 use crate::fill::session::FillSession;
 use crate::job::Job;
 use crate::mesh::trimesh::TriMesh;
@@ -59,17 +62,14 @@ unsafe fn read_point_options(options: *const HolefillPointOptions) -> Result<Giv
 /// Makes the mesh, on as many threads and for as long as is allowed.
 fn make(cloud: PointCloud, given: &Given) -> Result<(TriMesh, PointReport), Failure> {
     let pool = thread_pool(&given.limits)?;
-    let tell = |progress: Progress| given.callbacks.tell(progress);
-    let callback: Option<ProgressCallback<'_>> = match given.callbacks.has_progress() {
-        true => Some(&tell),
-        false => None,
-    };
-    let watch = Watch::new(0, given.limits.time_budget, callback);
-    let made = pool.install(|| reconstruct(cloud, &given.points, &Job::new(&watch)));
-    Ok(made.map_err(|e| watch.explain(e))?)
+    given.callbacks.with_progress(|progress| {
+        let watch = Watch::new(0, given.limits.time_budget, progress);
+        let made = pool.install(|| reconstruct(cloud, &given.points, &Job::new(&watch)));
+        Ok(made.map_err(|e| watch.explain(e))?)
+    })
 }
 
-/// Makes a mesh from copies of unorganised points, such as those of a scanner: oriented, without edges of more than two
+/// Makes a mesh from copies of unorganized points, such as those of a scanner: oriented, without edges of more than two
 /// triangles, and open where there are no samples. Its holes are filled like those of any mesh.
 ///
 /// `points`: rows of three, `float` or `double`. They are the vertices, all of them, in their order and, in double
@@ -79,7 +79,7 @@ fn make(cloud: PointCloud, given: &Given) -> Result<(TriMesh, PointReport), Fail
 /// where they point. A normal that is zero is not known and is estimated, as all are without `normals`; each piece of
 /// surface then faces away from its middle. Normals are not kept: `holefill_mesh_add_attribute` does that.
 ///
-/// `colors` may be null. Otherwise it has a row of three numbers for each point, of any type but `uint64_t`, which become
+/// `colors` may be null. Otherwise it has a row of three numbers for each point, of any type of an attribute, which become
 /// the vertex attribute `color`: as if added by `holefill_mesh_add_attribute`.
 ///
 /// `options` may be null. `mesh` gets the handle. `summary` may be null; otherwise it gets what became of the points.
@@ -100,12 +100,10 @@ pub unsafe extern "C" fn holefill_mesh_from_points(
     error: *mut HolefillError,
 ) -> HolefillStatus {
     guard(error, || {
-        if mesh.is_null() {
-            return Err(null("mesh"));
-        }
+        not_null(mesh.cast_const(), "mesh")?;
         if !summary.is_null() {
             // SAFETY: not null, and the caller's promise.
-            unsafe { check_struct(summary, "summary")? };
+            unsafe { check_struct(summary.cast_const(), "summary")? };
         }
         // SAFETY: the caller's promise.
         let given = unsafe { read_point_options(options)? };
@@ -128,7 +126,7 @@ pub unsafe extern "C" fn holefill_mesh_from_points(
         let mut object = MeshObject::new(FillSession::new(built));
         object.attributes[0].extend(color);
         // SAFETY: as above.
-        let status = unsafe { hand_out(object, mesh)? };
+        unsafe { hand_out(object, mesh, "mesh")? };
         if !summary.is_null() {
             let value = HolefillPointSummary {
                 used: report.used as u64,
@@ -143,6 +141,6 @@ pub unsafe extern "C" fn holefill_mesh_from_points(
             // SAFETY: not null, and checked before.
             unsafe { write_struct(summary, &value, "summary")? };
         }
-        Ok(status)
+        Ok(())
     })
 }

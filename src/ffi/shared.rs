@@ -19,15 +19,9 @@ pub(super) struct Shared<T> {
     is_poisoned: AtomicBool,
 }
 
-/// The right to read.
-pub(super) struct Reader<'a, T> {
-    guard: RwLockReadGuard<'a, T>,
-    is_poisoned: &'a AtomicBool,
-}
-
-/// The right to change.
-pub(super) struct Writer<'a, T> {
-    guard: RwLockWriteGuard<'a, T>,
+/// The right to read or to change, which is that of the lock's guard.
+pub(super) struct Use<'a, G> {
+    guard: G,
     is_poisoned: &'a AtomicBool,
 }
 
@@ -40,30 +34,21 @@ impl<T> Shared<T> {
     }
 
     /// The right to read, unless somebody changes the object. Does not wait.
-    pub(super) fn read(&self) -> Result<Reader<'_, T>, Refusal> {
-        let guard = self.lock.try_read().map_err(|e| refusal(&e))?;
-        self.check()?;
-        Ok(Reader {
-            guard,
-            is_poisoned: &self.is_poisoned,
-        })
+    pub(super) fn read(&self) -> Result<Use<'_, RwLockReadGuard<'_, T>>, Refusal> {
+        self.checked(self.lock.try_read().map_err(|e| refusal(&e))?)
     }
 
     /// The right to change the object, unless somebody reads or changes it. Does not wait.
-    pub(super) fn write(&self) -> Result<Writer<'_, T>, Refusal> {
-        let guard = self.lock.try_write().map_err(|e| refusal(&e))?;
-        self.check()?;
-        Ok(Writer {
-            guard,
-            is_poisoned: &self.is_poisoned,
-        })
+    pub(super) fn write(&self) -> Result<Use<'_, RwLockWriteGuard<'_, T>>, Refusal> {
+        self.checked(self.lock.try_write().map_err(|e| refusal(&e))?)
     }
 
-    fn check(&self) -> Result<(), Refusal> {
-        if self.is_poisoned.load(Ordering::Acquire) {
-            return Err(Refusal::Poisoned);
+    fn checked<G>(&self, guard: G) -> Result<Use<'_, G>, Refusal> {
+        let is_poisoned = &self.is_poisoned;
+        match is_poisoned.load(Ordering::Acquire) {
+            true => Err(Refusal::Poisoned),
+            false => Ok(Use { guard, is_poisoned }),
         }
-        Ok(())
     }
 }
 
@@ -74,42 +59,24 @@ fn refusal<G>(error: &TryLockError<G>) -> Refusal {
     }
 }
 
-fn poison_after_panic(is_poisoned: &AtomicBool) {
-    if std::thread::panicking() {
-        is_poisoned.store(true, Ordering::Release);
-    }
-}
-
-impl<T> Drop for Reader<'_, T> {
+impl<G> Drop for Use<'_, G> {
     fn drop(&mut self) {
-        poison_after_panic(self.is_poisoned);
+        if std::thread::panicking() {
+            self.is_poisoned.store(true, Ordering::Release);
+        }
     }
 }
 
-impl<T> Drop for Writer<'_, T> {
-    fn drop(&mut self) {
-        poison_after_panic(self.is_poisoned);
-    }
-}
+impl<G: Deref> Deref for Use<'_, G> {
+    type Target = G::Target;
 
-impl<T> Deref for Reader<'_, T> {
-    type Target = T;
-
-    fn deref(&self) -> &T {
+    fn deref(&self) -> &G::Target {
         &self.guard
     }
 }
 
-impl<T> Deref for Writer<'_, T> {
-    type Target = T;
-
-    fn deref(&self) -> &T {
-        &self.guard
-    }
-}
-
-impl<T> DerefMut for Writer<'_, T> {
-    fn deref_mut(&mut self) -> &mut T {
+impl<G: DerefMut> DerefMut for Use<'_, G> {
+    fn deref_mut(&mut self) -> &mut G::Target {
         &mut self.guard
     }
 }

@@ -50,123 +50,51 @@ pub const HOLEFILL_STATUS_POISONED: HolefillStatus = 18;
 /// A defect of the library showed itself, and was contained. The mesh that was being used is poisoned.
 pub const HOLEFILL_STATUS_PANIC: HolefillStatus = 19;
 
-/// All statuses: number, name, message.
-pub(super) const STATUSES: &[(HolefillStatus, &CStr, &CStr)] = &[
-    (HOLEFILL_STATUS_OK, c"OK", c"done"),
-    (
-        HOLEFILL_STATUS_INCOMPLETE,
-        c"INCOMPLETE",
-        c"some of the holes could not be filled",
-    ),
-    (
-        HOLEFILL_STATUS_NULL_POINTER,
-        c"NULL_POINTER",
-        c"a pointer is null that must not be",
-    ),
-    (
-        HOLEFILL_STATUS_INVALID_HANDLE,
-        c"INVALID_HANDLE",
-        c"the handle is of no living object of this kind",
-    ),
-    (
-        HOLEFILL_STATUS_INVALID_ARGUMENT,
-        c"INVALID_ARGUMENT",
-        c"an argument is not allowed",
-    ),
-    (
-        HOLEFILL_STATUS_INVALID_STRUCT,
-        c"INVALID_STRUCT",
-        c"a struct has an unknown size, version or field",
-    ),
-    (
-        HOLEFILL_STATUS_BUFFER_TOO_SMALL,
-        c"BUFFER_TOO_SMALL",
-        c"the buffer is too small",
-    ),
-    (
-        HOLEFILL_STATUS_BUSY,
-        c"BUSY",
-        c"the mesh is in use by another call",
-    ),
-    (
-        HOLEFILL_STATUS_CANCELLED,
-        c"CANCELLED",
-        c"stopped by the caller",
-    ),
-    (
-        HOLEFILL_STATUS_NOT_FOUND,
-        c"NOT_FOUND",
-        c"there is nothing of this number or name",
-    ),
-    (
-        HOLEFILL_STATUS_NOT_FINITE,
-        c"NOT_FINITE",
-        c"a coordinate is infinite or not a number",
-    ),
-    (
-        HOLEFILL_STATUS_INDEX_OUT_OF_RANGE,
-        c"INDEX_OUT_OF_RANGE",
-        c"an index names a vertex that does not exist",
-    ),
-    (
-        HOLEFILL_STATUS_OVERFLOW,
-        c"OVERFLOW",
-        c"a count times a stride is more than the address space",
-    ),
-    (
-        HOLEFILL_STATUS_TOPOLOGY,
-        c"TOPOLOGY",
-        c"the loop is of a kind that cannot be filled",
-    ),
-    (HOLEFILL_STATUS_LIMIT, c"LIMIT", c"a limit was exceeded"),
-    (
-        HOLEFILL_STATUS_OUT_OF_MEMORY,
-        c"OUT_OF_MEMORY",
-        c"there is not enough memory",
-    ),
-    (
-        HOLEFILL_STATUS_STALE_PLAN,
-        c"STALE_PLAN",
-        c"the plan does not fit the mesh",
-    ),
-    (
-        HOLEFILL_STATUS_NOTHING_TO_UNDO,
-        c"NOTHING_TO_UNDO",
-        c"there is no fill to undo",
-    ),
-    (
-        HOLEFILL_STATUS_POISONED,
-        c"POISONED",
-        c"an earlier call failed inside the library; the mesh can only be freed",
-    ),
-    (
-        HOLEFILL_STATUS_PANIC,
-        c"PANIC",
-        c"a defect of the library showed itself",
-    ),
-];
-
-fn entry(
-    status: HolefillStatus,
-) -> Option<&'static (HolefillStatus, &'static CStr, &'static CStr)> {
-    STATUSES.iter().find(|&&(s, ..)| s == status)
+/// Declares the table of all statuses: number, name, message.
+macro_rules! statuses {
+    ($($status:ident $name:literal $message:literal)*) => {
+        pub(super) const STATUSES: &[(HolefillStatus, &CStr, &CStr)] = &[$(($status, $name, $message)),*];
+    };
+}
+statuses! {
+    HOLEFILL_STATUS_OK c"OK" c"done"
+    HOLEFILL_STATUS_INCOMPLETE c"INCOMPLETE" c"some of the holes could not be filled"
+    HOLEFILL_STATUS_NULL_POINTER c"NULL_POINTER" c"a pointer is null that must not be"
+    HOLEFILL_STATUS_INVALID_HANDLE c"INVALID_HANDLE" c"the handle is of no living object of this kind"
+    HOLEFILL_STATUS_INVALID_ARGUMENT c"INVALID_ARGUMENT" c"an argument is not allowed"
+    HOLEFILL_STATUS_INVALID_STRUCT c"INVALID_STRUCT" c"a struct has an unknown size, version or field"
+    HOLEFILL_STATUS_BUFFER_TOO_SMALL c"BUFFER_TOO_SMALL" c"the buffer is too small"
+    HOLEFILL_STATUS_BUSY c"BUSY" c"the mesh is in use by another call"
+    HOLEFILL_STATUS_CANCELLED c"CANCELLED" c"stopped by the caller"
+    HOLEFILL_STATUS_NOT_FOUND c"NOT_FOUND" c"there is nothing of this number or name"
+    HOLEFILL_STATUS_NOT_FINITE c"NOT_FINITE" c"a coordinate is infinite or not a number"
+    HOLEFILL_STATUS_INDEX_OUT_OF_RANGE c"INDEX_OUT_OF_RANGE" c"an index names a vertex that does not exist"
+    HOLEFILL_STATUS_OVERFLOW c"OVERFLOW" c"a count times a stride is more than the address space"
+    HOLEFILL_STATUS_TOPOLOGY c"TOPOLOGY" c"the loop is of a kind that cannot be filled"
+    HOLEFILL_STATUS_LIMIT c"LIMIT" c"a limit was exceeded"
+    HOLEFILL_STATUS_OUT_OF_MEMORY c"OUT_OF_MEMORY" c"there is not enough memory"
+    HOLEFILL_STATUS_STALE_PLAN c"STALE_PLAN" c"the plan does not fit the mesh"
+    HOLEFILL_STATUS_NOTHING_TO_UNDO c"NOTHING_TO_UNDO" c"there is no fill to undo"
+    HOLEFILL_STATUS_POISONED c"POISONED" c"an earlier call failed inside the library; the mesh can only be freed"
+    HOLEFILL_STATUS_PANIC c"PANIC" c"a defect of the library showed itself"
 }
 
 /// The name of a status without its prefix, such as `INVALID_HANDLE`; `UNKNOWN` for a number that is none. The text
 /// is static: it is never freed.
 #[unsafe(no_mangle)]
 pub extern "C" fn holefill_status_name(status: HolefillStatus) -> *const c_char {
-    entry(status).map_or(c"UNKNOWN", |e| e.1).as_ptr()
+    let entry = STATUSES.iter().find(|&&(s, ..)| s == status);
+    entry.map_or(c"UNKNOWN", |e| e.1).as_ptr()
 }
 
 /// What a status means, in a few words. The text is static: it is never freed.
 #[unsafe(no_mangle)]
 pub extern "C" fn holefill_status_message(status: HolefillStatus) -> *const c_char {
-    entry(status).map_or(c"an unknown status", |e| e.2).as_ptr()
+    message(status).as_ptr()
 }
 
 /// The words for a status.
-pub(super) fn message(status: HolefillStatus) -> String {
-    let text = entry(status).map_or(c"an unknown status", |e| e.2);
-    text.to_string_lossy().into_owned()
+pub(super) fn message(status: HolefillStatus) -> &'static CStr {
+    let entry = STATUSES.iter().find(|&&(s, ..)| s == status);
+    entry.map_or(c"an unknown status", |e| e.2)
 }

@@ -1,6 +1,5 @@
 //! The structs and constants of the C interface.
 
-use super::memory::CStruct;
 use std::ffi::{c_char, c_void};
 
 /// A mesh with its boundary loops, or a polyline. The handle 0 is none. Free with `holefill_mesh_free`.
@@ -59,6 +58,8 @@ pub const HOLEFILL_TYPE_U16: HolefillType = 4;
 pub const HOLEFILL_TYPE_I32: HolefillType = 5;
 /// `uint32_t`
 pub const HOLEFILL_TYPE_U32: HolefillType = 6;
+/// `int64_t`; for indices and ids only
+pub const HOLEFILL_TYPE_I64: HolefillType = 7;
 /// `uint64_t`; for indices and ids only
 pub const HOLEFILL_TYPE_U64: HolefillType = 8;
 /// `float`
@@ -232,10 +233,9 @@ pub struct HolefillSelection {
     pub struct_size: u32,
     /// `HOLEFILL_SELECTION_VERSION`
     pub version: u32,
-    /// If not empty, only the loops through these directed boundary edges are chosen. Rows of two vertices, `uint32_t` or
-    /// `uint64_t`.
+    /// If not empty, only the loops through these directed boundary edges are chosen. Rows of two vertices.
     pub only: HolefillInput,
-    /// The loops through these directed boundary edges are not chosen. Rows of two vertices, `uint32_t` or `uint64_t`.
+    /// The loops through these directed boundary edges are not chosen. Rows of two vertices.
     pub keep: HolefillInput,
     /// Loops with more edges are not chosen; 0 is no limit.
     pub max_edges: u64,
@@ -243,6 +243,44 @@ pub struct HolefillSelection {
     pub max_perimeter: f64,
     /// So many loops of the largest perimeter are not chosen.
     pub keep_largest: u64,
+}
+
+/// How a target names loops: one of the `HOLEFILL_TARGET_` constants.
+pub type HolefillTargetKind = u32;
+/// All open loops that the rules of `selection` choose. With `selection` null: all open loops.
+pub const HOLEFILL_TARGET_SELECTED: HolefillTargetKind = 0;
+/// The loop `loop_id`.
+pub const HOLEFILL_TARGET_LOOP: HolefillTargetKind = 1;
+/// The loop through the boundary edge `edge`.
+pub const HOLEFILL_TARGET_EDGE: HolefillTargetKind = 2;
+/// The loops that the closed chain of the vertices `ids` consists of: see `holefill_mesh_find_vertices`.
+pub const HOLEFILL_TARGET_VERTICES: HolefillTargetKind = 3;
+/// The loops `ids`.
+pub const HOLEFILL_TARGET_LOOPS: HolefillTargetKind = 4;
+
+/// The version of `HolefillTarget`.
+pub const HOLEFILL_TARGET_VERSION: u32 = 1;
+/// Which loops to fill or to plan. All zero but the first two fields is every open loop, and so is a null pointer in the
+/// place of the struct. Only the fields that `kind` names are read.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct HolefillTarget {
+    /// `sizeof(HolefillTarget)`
+    pub struct_size: u32,
+    /// `HOLEFILL_TARGET_VERSION`
+    pub version: u32,
+    /// How the loops are named.
+    pub kind: HolefillTargetKind,
+    /// Must be 0.
+    pub reserved: u32,
+    /// The id of a loop.
+    pub loop_id: u64,
+    /// A directed boundary edge as it runs in its triangle: from vertex 0 to vertex 1.
+    pub edge: [u64; 2],
+    /// Rows of one loop id, or of one vertex.
+    pub ids: *const HolefillInput,
+    /// Rules.
+    pub selection: *const HolefillSelection,
 }
 
 /// The version of `HolefillProgress`.
@@ -340,7 +378,7 @@ pub struct HolefillPointOptions {
     /// `HOLEFILL_POINT_OPTIONS_VERSION`
     pub version: u32,
     /// The largest radius of the circle through the corners of a triangle, in units of the positions: a hole that such a
-    /// circle passes through stays open. 0 takes three times the median of the neighbourhood.
+    /// circle passes through stays open. 0 takes three times the median of the neighborhood.
     pub radius: f64,
     /// How many of the nearest points each point chooses its triangles from, 6 to 200; 0 is 24.
     pub neighbours: u32,
@@ -488,12 +526,12 @@ pub struct HolefillPrediction {
     pub chosen: *const c_char,
     /// Standard deviation of the vertices round the hole from smooth surfaces, in units of the mean rim edge.
     pub noise: f64,
-    /// Candidates that were compared: see `holefill_report_score`. 0 when none were, as by `curvature` or with
+    /// Candidates that were compared: `holefill_report_json` lists them. 0 when none were, as by `curvature` or with
     /// `auto.candidate`.
     pub score_count: u64,
     /// Creases in the patch.
     pub crease_count: u64,
-    /// Surfaces between the creases: see `holefill_report_crease_surface`.
+    /// Surfaces between the creases: `holefill_report_json` lists them.
     pub crease_surface_count: u64,
     /// 1 when the hole was taken for the missing tip of a horn, higher than half a sphere.
     pub is_tip: u32,
@@ -531,29 +569,3 @@ pub struct HolefillSummary {
     /// Seconds spent to fill.
     pub fill_seconds: f64,
 }
-
-macro_rules! versioned {
-    ($($name:ident = $version:ident),* $(,)?) => {
-        $(
-            // SAFETY: repr(C), begins with two `u32`, and all zero bytes are a value: numbers, pointers, and
-            // functions that may be null.
-            unsafe impl CStruct for $name {
-                const VERSION: u32 = $version;
-            }
-        )*
-    };
-}
-versioned!(
-    HolefillMeshInfo = HOLEFILL_MESH_INFO_VERSION,
-    HolefillDefects = HOLEFILL_DEFECTS_VERSION,
-    HolefillAttributeInfo = HOLEFILL_ATTRIBUTE_INFO_VERSION,
-    HolefillLoopInfo = HOLEFILL_LOOP_INFO_VERSION,
-    HolefillSelection = HOLEFILL_SELECTION_VERSION,
-    HolefillFillOptions = HOLEFILL_FILL_OPTIONS_VERSION,
-    HolefillPointOptions = HOLEFILL_POINT_OPTIONS_VERSION,
-    HolefillPointSummary = HOLEFILL_POINT_SUMMARY_VERSION,
-    HolefillPatchInfo = HOLEFILL_PATCH_INFO_VERSION,
-    HolefillHole = HOLEFILL_HOLE_VERSION,
-    HolefillPrediction = HOLEFILL_PREDICTION_VERSION,
-    HolefillSummary = HOLEFILL_SUMMARY_VERSION,
-);

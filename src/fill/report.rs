@@ -4,6 +4,7 @@ use super::method::Method;
 use crate::boundary::classify::LoopClass;
 use crate::error::ErrorKind;
 use crate::predict::surface::candidates::Candidate;
+use serde::{Serialize, Serializer};
 use std::ops::Range;
 
 /// How the filling of one hole ended.
@@ -34,7 +35,7 @@ impl HoleStatus {
 }
 
 /// A method that was tried on a hole and not used, and why.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Attempt {
     /// The method.
     pub method: Method,
@@ -43,13 +44,14 @@ pub struct Attempt {
 }
 
 /// How the missing surface was predicted.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Prediction {
     /// The candidate that was chosen.
     pub chosen: Candidate,
     /// The score of each candidate that was compared, which is about the distance in mean rim edges at which it misses
     /// rings round the hole that it has not seen; the smallest is best. See `docs/methods/auto.md` for what enters it.
     /// Empty when nothing was compared.
+    #[serde(serialize_with = "as_map")]
     pub scores: Vec<(Candidate, f64)>,
     /// Standard deviation of the surroundings' vertices from smooth surfaces, in rim edge lengths.
     pub noise: f64,
@@ -59,6 +61,7 @@ pub struct Prediction {
     /// scores say.
     pub is_flat: bool,
     /// Number of creases in the patch; when there are any, `chosen` was not used.
+    #[serde(rename = "creases")]
     pub crease_count: usize,
     /// The surfaces between the creases, in the order in which the rim meets them.
     pub crease_surfaces: Vec<Candidate>,
@@ -67,7 +70,7 @@ pub struct Prediction {
 }
 
 /// What happened to one hole.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct HoleReport {
     /// The loop's position in [`crate::BoundaryLoops::loops`].
     pub id: usize,
@@ -84,6 +87,7 @@ pub struct HoleReport {
     /// Why: for a filled hole what remains to be said (empty when nothing does).
     pub reason: String,
     /// The kind of the error that kept the hole open, if it was one.
+    #[serde(skip)]
     pub cause: Option<ErrorKind>,
     /// The method whose patch closes the hole.
     pub method: Option<Method>,
@@ -92,19 +96,22 @@ pub struct HoleReport {
     /// How the surface was predicted, when a method did so; `method` says whether the prediction stands.
     pub prediction: Option<Prediction>,
     /// New vertices, as a range of indices into the filled mesh.
+    #[serde(serialize_with = "length")]
     pub new_vertices: Range<u32>,
     /// New triangles, as a range of indices into the filled mesh.
+    #[serde(serialize_with = "length")]
     pub new_triangles: Range<u32>,
     /// Pairs of triangles that intersect, one of them new.
     pub self_intersections: usize,
     /// Smallest angle of the new triangles in radians.
+    #[serde(rename = "min_angle_deg", serialize_with = "degrees")]
     pub min_angle: Option<f64>,
     /// Time spent on the hole, in seconds.
     pub seconds: f64,
 }
 
 /// What happened to all holes of a mesh.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct FillReport {
     /// One entry for each boundary loop, in the order of [`crate::BoundaryLoops::loops`].
     pub holes: Vec<HoleReport>,
@@ -120,4 +127,37 @@ impl FillReport {
     pub fn count(&self, status: HoleStatus) -> usize {
         self.holes.iter().filter(|h| h.status == status).count()
     }
+
+    /// The report as JSON. Its holes have the form that `holefill fill --report` writes.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        // Numbers, texts, and lists and maps of them always have a JSON form.
+        serde_json::to_string_pretty(self).unwrap_or_default()
+    }
+}
+
+// The JSON form of the report
+
+/// What has a name is that name.
+macro_rules! by_name {
+    ($($named:ty),*) => {$(
+        impl Serialize for $named {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.serialize_str(self.name())
+            }
+        }
+    )*};
+}
+by_name!(HoleStatus, LoopClass, Method, Candidate);
+
+fn as_map<S: Serializer>(scores: &[(Candidate, f64)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(scores.iter().copied())
+}
+
+fn length<S: Serializer>(range: &Range<u32>, serializer: S) -> Result<S::Ok, S::Error> {
+    range.len().serialize(serializer)
+}
+
+fn degrees<S: Serializer>(angle: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
+    angle.map(f64::to_degrees).serialize(serializer)
 }

@@ -149,7 +149,7 @@ fn as_json(
         "pieces": points.pieces,
         "radius": {"smallest": smallest, "median": median, "largest": largest},
         "loops": boundary.loops.iter().map(report::boundary_loop).collect::<Vec<Value>>(),
-        "holes": holes.map(|r| r.holes.iter().map(report::hole).collect::<Vec<Value>>()),
+        "holes": holes.map(|r| &r.holes),
         "output": {"vertices": written.positions.len(), "triangles": written.triangles.len()},
         "seconds": {
             "read": seconds.read,

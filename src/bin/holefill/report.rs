@@ -1,7 +1,7 @@
 //! The JSON forms of what the tables show.
 
 use crate::table::area;
-use holefill::{BoundaryLoop, FillReport, HoleReport, MeshDefects, Prediction};
+use holefill::{BoundaryLoop, FillReport, MeshDefects};
 use serde_json::{Value, json};
 
 /// What a fill did, besides the holes themselves.
@@ -37,57 +37,8 @@ pub(crate) fn fill(facts: &FillFacts, report: &FillReport) -> String {
         },
         "threads": facts.threads,
         "seed": facts.seed,
-        "holes": report.holes.iter().map(hole).collect::<Vec<Value>>(),
+        "holes": report.holes,
     }))
-}
-
-/// What happened to a hole.
-pub(crate) fn hole(hole: &HoleReport) -> Value {
-    let tried = hole
-        .tried
-        .iter()
-        .map(|attempt| json!({"method": attempt.method.name(), "reason": attempt.reason}))
-        .collect::<Vec<Value>>();
-    json!({
-        "id": hole.id,
-        "edge": hole.edge,
-        "edges": hole.edges,
-        "perimeter": hole.perimeter,
-        "class": hole.class.name(),
-        "status": hole.status.name(),
-        "reason": hole.reason,
-        "method": hole.method.map(holefill::Method::name),
-        "tried": tried,
-        "prediction": hole.prediction.as_ref().map(prediction),
-        "new_vertices": hole.new_vertices.len(),
-        "new_triangles": hole.new_triangles.len(),
-        "self_intersections": hole.self_intersections,
-        "min_angle_deg": hole.min_angle.map(f64::to_degrees),
-        "seconds": hole.seconds,
-    })
-}
-
-fn prediction(prediction: &Prediction) -> Value {
-    let scores: serde_json::Map<String, Value> = prediction
-        .scores
-        .iter()
-        .map(|&(candidate, score)| (candidate.name().to_owned(), score.into()))
-        .collect();
-    let crease_surfaces: Vec<&str> = prediction
-        .crease_surfaces
-        .iter()
-        .map(|c| c.name())
-        .collect();
-    json!({
-        "chosen": prediction.chosen.name(),
-        "scores": scores,
-        "noise": prediction.noise,
-        "is_tip": prediction.is_tip,
-        "is_flat": prediction.is_flat,
-        "creases": prediction.crease_count,
-        "crease_surfaces": crease_surfaces,
-        "without_creases": prediction.without_creases,
-    })
 }
 
 /// A boundary loop as `holefill inspect --json` lists it.

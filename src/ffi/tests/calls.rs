@@ -59,14 +59,16 @@ fn arrays_of_every_type_and_stride_make_the_same_mesh() {
         reserved: 0,
     };
     let points = view(&doubles, arrays.positions.len(), 31, HOLEFILL_TYPE_F64);
+    let count = arrays.triangles.len();
     for faces in [
-        view(&wide, arrays.triangles.len(), 31, HOLEFILL_TYPE_U64),
-        view(&narrow, arrays.triangles.len(), 19, HOLEFILL_TYPE_U32),
+        view(&wide, count, 31, HOLEFILL_TYPE_U64),
+        view(&wide, count, 31, HOLEFILL_TYPE_I64),
+        view(&narrow, count, 19, HOLEFILL_TYPE_U32),
+        view(&narrow, count, 19, HOLEFILL_TYPE_I32),
+        rows(&arrays.triangles, HOLEFILL_TYPE_I32),
     ] {
         let mut mesh = HolefillMesh::default();
-        // SAFETY: the views describe living memory.
-        let status = unsafe { holefill_mesh_from_arrays(&points, &faces, &mut mesh, nothing()) };
-        assert_eq!(status, HOLEFILL_STATUS_OK);
+        ok!(holefill_mesh_from_arrays: &points, &faces, &mut mesh);
         let mesh = Owned(mesh);
         assert_eq!(digest(mesh.0), digest(expected.0));
     }
@@ -102,9 +104,7 @@ fn outputs_go_where_they_should_and_nowhere_else() {
         scalar_type: HOLEFILL_TYPE_F64,
         reserved: 0,
     };
-    // SAFETY: the output describes living memory.
-    let status = unsafe { holefill_mesh_read_positions(mesh.0, 2, &output, nothing()) };
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    ok!(holefill_mesh_read_positions: mesh.0, 2, &output);
     let mut expected = vec![0xAA_u8; 1 + 29 * 5];
     for (i, p) in arrays.positions[2..6].iter().enumerate() {
         let row: Vec<u8> = p.iter().flat_map(|c| c.to_ne_bytes()).collect();
@@ -113,16 +113,23 @@ fn outputs_go_where_they_should_and_nowhere_else() {
     assert_eq!(bytes, expected);
     let mut wide = [[0_u64; 3]; 2];
     let mut single = [[0_f32; 3]; 2];
+    let (mut signed, mut wide_signed) = ([[0_i32; 3]; 2], [[0_i64; 3]; 2]);
     let (to_wide, to_single) = (
         place(&mut wide, HOLEFILL_TYPE_U64),
         place(&mut single, HOLEFILL_TYPE_F32),
     );
-    // SAFETY: the outputs describe living memory.
-    unsafe {
-        holefill_mesh_read_triangles(mesh.0, 1, &to_wide, nothing());
-        holefill_mesh_read_positions(mesh.0, 1, &to_single, nothing());
+    let to_signed = [
+        place(&mut signed, HOLEFILL_TYPE_I32),
+        place(&mut wide_signed, HOLEFILL_TYPE_I64),
+    ];
+    for output in &to_signed {
+        call!(holefill_mesh_read_triangles: mesh.0, 1, output);
     }
+    call!(holefill_mesh_read_triangles: mesh.0, 1, &to_wide);
+    call!(holefill_mesh_read_positions: mesh.0, 1, &to_single);
     assert_eq!(wide[0], arrays.triangles[1].map(u64::from));
+    assert_eq!(wide_signed[0], arrays.triangles[1].map(i64::from));
+    assert_eq!(signed[1], arrays.triangles[2].map(u32::cast_signed));
     assert_eq!(single[1], arrays.positions[2].map(|c| c as f32));
 }
 
@@ -139,25 +146,17 @@ fn a_loop_is_the_same_by_id_by_edge_and_by_vertices() {
         }
         let view = rows(&chain, HOLEFILL_TYPE_U64);
         let mut id = u64::MAX;
-        let options = options();
-        // SAFETY: all pointers are null or to living values.
-        let status = unsafe {
-            assert_eq!(
-                holefill_mesh_find_edge(mesh.0, from, to, &mut id, nothing()),
-                HOLEFILL_STATUS_OK
-            );
-            let none = ptr::null_mut();
-            match way {
-                0 => holefill_mesh_fill_loop(mesh.0, 1, &options, none, nothing()),
-                1 => holefill_mesh_fill_edge(mesh.0, from, to, &options, none, nothing()),
-                2 | 3 => holefill_mesh_fill_vertices(mesh.0, &view, &options, none, nothing()),
-                _ => {
-                    let ids = rows(&[1_u32], HOLEFILL_TYPE_U32);
-                    holefill_mesh_fill_loops(mesh.0, &ids, &options, none, nothing())
-                }
-            }
-        };
+        let status = call!(holefill_mesh_find_edge: mesh.0, from, to, &mut id);
         assert_eq!((status, id), (HOLEFILL_STATUS_OK, 1));
+        let ids = rows(&[1_i64], HOLEFILL_TYPE_I64);
+        let target = match way {
+            0 => at_loop(1),
+            1 => at_edge([from, to]),
+            2 | 3 => at_ids(HOLEFILL_TARGET_VERTICES, &view),
+            _ => at_ids(HOLEFILL_TARGET_LOOPS, &ids),
+        };
+        let status = fill(mesh.0, &target, &options());
+        assert_eq!(status, HOLEFILL_STATUS_OK);
         assert_eq!(loop_info(mesh.0, 1).is_open, 0);
         assert_eq!(loop_info(mesh.0, 0).is_open, 1);
         digests.push(digest(mesh.0));
@@ -183,16 +182,10 @@ fn a_chain_through_two_loops_that_touch_finds_both() {
     let view = rows(&eight, HOLEFILL_TYPE_U64);
     let mut ids = [u64::MAX; 2];
     let mut count = 0;
-    // SAFETY: all pointers are to living values.
-    unsafe {
-        let status =
-            holefill_mesh_find_vertices(mesh.0, &view, ids.as_mut_ptr(), 1, &mut count, nothing());
-        assert_eq!((status, count), (HOLEFILL_STATUS_BUFFER_TOO_SMALL, 2));
-        assert_eq!(ids[0], u64::MAX);
-        let status =
-            holefill_mesh_find_vertices(mesh.0, &view, ids.as_mut_ptr(), 2, &mut count, nothing());
-        assert_eq!(status, HOLEFILL_STATUS_OK);
-    }
+    let status = call!(holefill_mesh_find_vertices: mesh.0, &view, ids.as_mut_ptr(), 1, &mut count);
+    assert_eq!((status, count), (HOLEFILL_STATUS_BUFFER_TOO_SMALL, 2));
+    assert_eq!(ids[0], u64::MAX);
+    ok!(holefill_mesh_find_vertices: mesh.0, &view, ids.as_mut_ptr(), 2, &mut count);
     assert_eq!(ids, [a, b]);
     // Not all of it is not a loop.
     let view = rows(&eight[..eight.len() - 1], HOLEFILL_TYPE_U64);
@@ -231,17 +224,12 @@ fn plans_of_several_loops_number_their_patches_one_after_the_other() {
     let mesh = holed_mesh();
     let mut plan = HolefillPlan::default();
     let mut report = HolefillReport::default();
-    let mut infos = [memory::blank::<HolefillPatchInfo>(); 2];
-    // SAFETY: all pointers are null or to living values.
-    unsafe {
-        let status =
-            holefill_mesh_plan_selected(mesh.0, ptr::null(), &options(), &mut plan, nothing());
-        assert_eq!(status, HOLEFILL_STATUS_OK);
-        for id in 0..2 {
-            holefill_plan_patch(plan, id, &mut infos[id as usize], nothing());
-        }
-        holefill_plan_report(plan, &mut report, nothing());
+    let mut infos = [structs::blank::<HolefillPatchInfo>(); 2];
+    ok!(holefill_mesh_plan: mesh.0, ptr::null(), &options(), &mut plan);
+    for id in 0..2 {
+        call!(holefill_plan_patch: plan, id, &mut infos[id as usize]);
     }
+    call!(holefill_plan_report: plan, &mut report);
     assert_eq!(infos[0].first_vertex, info(mesh.0).vertex_count);
     assert_eq!(
         infos[1].first_vertex,
@@ -258,14 +246,6 @@ fn plans_of_several_loops_number_their_patches_one_after_the_other() {
     let filled = holed_mesh();
     fill_all(filled.0, &options());
     assert_eq!(digest(filled.0), digest(mesh.0));
-}
-
-fn hole(report: HolefillReport, index: u64) -> HolefillHole {
-    let mut hole = memory::blank::<HolefillHole>();
-    // SAFETY: the pointer is to a living value.
-    let status = unsafe { holefill_report_hole(report, index, &mut hole, nothing()) };
-    assert_eq!(status, HOLEFILL_STATUS_OK);
-    hole
 }
 
 #[test]
@@ -291,13 +271,9 @@ fn undo_brings_back_every_state_in_turn() {
 #[test]
 fn a_report_says_what_happened_to_each_hole() {
     let mesh = holed_mesh();
-    let mut report = HolefillReport::default();
-    let mut rules = memory::blank::<HolefillSelection>();
+    let mut rules = structs::blank::<HolefillSelection>();
     rules.keep_largest = 1;
-    let method = with_method(c"fair-c1");
-    // SAFETY: all pointers are null or to living values.
-    let status =
-        unsafe { holefill_mesh_fill_selected(mesh.0, &rules, &method, &mut report, nothing()) };
+    let (status, report) = report_of(mesh.0, &selected(&rules), &with_method(c"fair-c1"));
     assert_eq!(status, HOLEFILL_STATUS_OK);
     let holes = [hole(report, 0), hole(report, 1)];
     let (kept, filled) = match holes[0].status {
@@ -315,18 +291,14 @@ fn a_report_says_what_happened_to_each_hole() {
         filled.first_triangle + filled.triangle_count,
         size.triangle_count
     );
-    let mut summary = memory::blank::<HolefillSummary>();
-    // SAFETY: the pointer is to a living value.
-    unsafe { holefill_report_summary(report, &mut summary, nothing()) };
+    let mut summary = structs::blank::<HolefillSummary>();
+    call!(holefill_report_summary: report, &mut summary);
     assert_eq!(
         (summary.hole_count, summary.filled, summary.kept),
         (2, 1, 1)
     );
     assert_eq!(summary.new_triangles, filled.triangle_count);
-    // SAFETY: `text` gives room as it says.
-    let reason = text(&|buffer, capacity, length| unsafe {
-        holefill_report_reason(report, kept.loop_id, buffer, capacity, length, nothing())
-    });
+    let reason = reason(report, kept.loop_id);
     assert!(reason.contains("largest"), "{reason}");
     holefill_report_free(report);
 }
@@ -334,205 +306,81 @@ fn a_report_says_what_happened_to_each_hole() {
 #[test]
 fn methods_that_were_tried_are_listed_with_reasons() {
     let mesh = holed_mesh();
-    let mut parameters = HolefillParameters::default();
-    let mut report = HolefillReport::default();
-    // SAFETY: all pointers are null or to living values.
-    unsafe {
-        holefill_parameters_new(&mut parameters, nothing());
-        let (name, value) = (c"refine.max-vertices", c"0");
-        holefill_parameters_set(parameters, name.as_ptr(), value.as_ptr(), nothing());
-        let options = HolefillFillOptions {
-            parameters,
-            ..with_method(c"fair-c1")
-        };
-        let status = holefill_mesh_fill_loop(mesh.0, 0, &options, &mut report, nothing());
-        assert_eq!(status, HOLEFILL_STATUS_OK);
-    }
+    let parameters = parameters(c"refine.max-vertices", c"0");
+    let options = HolefillFillOptions {
+        parameters,
+        ..with_method(c"fair-c1")
+    };
+    let (status, report) = report_of(mesh.0, &at_loop(0), &options);
+    assert_eq!(status, HOLEFILL_STATUS_OK);
     let hole = hole(report, 0);
     assert_eq!(static_text(hole.method), Some("flat"));
     assert!(hole.tried_count >= 1);
     let mut method: *const c_char = ptr::null();
-    // SAFETY: `text` gives room as it says, and `method` lives.
-    let reason = text(&|buffer, capacity, length| unsafe {
-        let place = (&raw const method).cast_mut();
-        holefill_report_tried(report, 0, 0, place, buffer, capacity, length, nothing())
-    });
+    let place = &raw mut method;
+    let reason = told!(holefill_report_tried: report, 0, 0, place);
     assert_eq!(static_text(method), Some("fair-c1"));
     assert!(!reason.is_empty());
-    method = ptr::null();
-    assert!(method.is_null());
     holefill_report_free(report);
     holefill_parameters_free(parameters);
 }
 
-/// The prediction of entry `index` as C reads it, in the terms of Rust.
-fn prediction(report: HolefillReport, index: u64) -> Option<crate::Prediction> {
-    let candidate_of = |name: *const c_char| {
-        let name = static_text(name).unwrap();
-        let found = crate::Candidate::ALL.into_iter().find(|c| c.name() == name);
-        found.unwrap()
-    };
-    let mut found = memory::blank::<HolefillPrediction>();
-    let (mut name, mut score) = (ptr::null(), 0.0);
-    // SAFETY: all pointers are null or to living values.
-    unsafe {
-        let status = holefill_report_prediction(report, index, &mut found, nothing());
-        if status == HOLEFILL_STATUS_NOT_FOUND {
-            return None;
-        }
-        assert_eq!(status, HOLEFILL_STATUS_OK);
-        let mut scores = Vec::new();
-        for k in 0..=found.score_count {
-            let status = holefill_report_score(report, index, k, &mut name, &mut score, nothing());
-            if k == found.score_count {
-                assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
-            } else {
-                assert_eq!(status, HOLEFILL_STATUS_OK);
-                scores.push((candidate_of(name), score));
-            }
-        }
-        let mut crease_surfaces = Vec::new();
-        for k in 0..=found.crease_surface_count {
-            let status = holefill_report_crease_surface(report, index, k, &mut name, nothing());
-            if k == found.crease_surface_count {
-                assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
-            } else {
-                assert_eq!(status, HOLEFILL_STATUS_OK);
-                crease_surfaces.push(candidate_of(name));
-            }
-        }
-        let reason = text(&|buffer, capacity, length| {
-            holefill_report_without_creases(report, index, buffer, capacity, length, nothing())
-        });
-        Some(crate::Prediction {
-            chosen: candidate_of(found.chosen),
-            scores,
-            noise: found.noise,
-            is_tip: found.is_tip == 1,
-            is_flat: found.is_flat == 1,
-            crease_count: found.crease_count as usize,
-            crease_surfaces,
-            without_creases: (!reason.is_empty()).then_some(reason),
-        })
-    }
-}
-
 #[test]
-fn predictions_are_those_of_the_library() {
-    let off_center = |x: f64, y: f64| (x - 12.0).hypot(y - 12.0);
-    let bent = |x: f64, y: f64| -0.08 * (off_center(x, y) - 6.0).max(0.0).powi(2);
-    let noisy = |x: f64, y: f64| 0.1 * (91.0 * x + 57.0 * y).sin();
-    let over_hole = |c: fixtures::Point| off_center(c[0], c[1]) < 4.0;
+fn a_report_is_also_one_text_with_what_was_predicted() {
     let edge = |[x, y, z]: fixtures::Point| (x - 1.0).hypot(y - 1.0).hypot(z) < 0.5;
-    let ridges = |x: f64, _: f64| (x - 10.0).abs() + (x - 14.0).abs();
-    let tube = fixtures::cylinder(24, 10);
-    let height = 1.5 * tube.positions.iter().map(|p| p[2]).fold(0.0, f64::max);
-    let meshes = [
-        fixtures::sphere(14).cut(|c| c[2] > 0.75),
-        tube.mapped(|[x, y, z]| [x * (1.0 - z / height), y * (1.0 - z / height), z]),
-        fixtures::sheet(24, bent).cut(over_hole),
-        fixtures::sheet(24, noisy).cut(over_hole),
-        fixtures::cube(12).cut(edge),
-        fixtures::sheet(24, ridges).cut(over_hole),
-    ];
-    let mut seen = Vec::new();
-    for arrays in &meshes {
-        let mesh = mesh_of(arrays);
-        let mut report = HolefillReport::default();
-        // SAFETY: all pointers are null or to living values.
-        let status = unsafe {
-            let options = with_method(c"auto");
-            holefill_mesh_fill_selected(mesh.0, ptr::null(), &options, &mut report, nothing())
-        };
+    let cube = fixtures::cube(12).cut(edge);
+    let mut has_scores = false;
+    for (arrays, method) in [(holed(), c"auto"), (cube, c"auto"), (holed(), c"fair-c1")] {
+        let mesh = mesh_of(&arrays);
+        let (status, report) = report_of(mesh.0, &every_loop(), &with_method(method));
         assert_eq!(status, HOLEFILL_STATUS_OK);
-        let (positions, triangles) = (arrays.positions.clone(), arrays.triangles.clone());
-        let mut same = crate::TriMesh::new(positions, triangles).unwrap();
-        let boundary = crate::BoundaryLoops::find(&same);
-        let options = crate::FillOptions {
-            method: crate::Method::Auto,
-            ..Default::default()
-        };
-        let expected =
-            crate::fill_holes(&mut same, &boundary, &Default::default(), &options, None).unwrap();
-        for (i, hole) in (0..).zip(&expected.holes) {
-            assert_eq!(prediction(report, i), hole.prediction);
-            seen.extend(hole.prediction.clone());
+        let json = told!(holefill_report_json: report);
+        let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+        let holes = json["holes"].as_array().unwrap();
+        assert_eq!(holes.len() as u64, loop_count(mesh.0));
+        for (i, told) in (0..).zip(holes) {
+            let hole = hole(report, i);
+            assert_eq!(told["id"], hole.loop_id);
+            assert_eq!(told["method"].as_str(), static_text(hole.method));
+            assert_eq!(told["new_triangles"], hole.triangle_count);
+            let mut found = structs::blank::<HolefillPrediction>();
+            let status = call!(holefill_report_prediction: report, i, &mut found);
+            let told = &told["prediction"];
+            if told.is_null() {
+                assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
+                continue;
+            }
+            assert_eq!(status, HOLEFILL_STATUS_OK);
+            assert_eq!(told["chosen"].as_str(), static_text(found.chosen));
+            assert_eq!(told["noise"], found.noise);
+            assert_eq!(told["is_tip"], found.is_tip == 1);
+            assert_eq!(told["is_flat"], found.is_flat == 1);
+            assert_eq!(told["creases"], found.crease_count);
+            let length = |list: &serde_json::Value| list.as_array().map_or(0, Vec::len) as u64;
+            assert_eq!(length(&told["crease_surfaces"]), found.crease_surface_count);
+            let scores = told["scores"].as_object().unwrap();
+            assert_eq!(scores.len() as u64, found.score_count);
+            has_scores |= scores.contains_key(static_text(found.chosen).unwrap());
         }
         holefill_report_free(report);
     }
-    // Every field differs somewhere.
-    assert!(seen.iter().any(|p| p.is_tip) && seen.iter().any(|p| p.is_flat));
-    assert!(
-        seen.iter()
-            .any(|p| p.crease_count > 0 && !p.crease_surfaces.is_empty())
-    );
-    assert!(seen.iter().any(|p| p.without_creases.is_some()), "{seen:?}");
-    assert!(seen.iter().any(|p| p.noise > 0.01));
+    assert!(has_scores);
 }
 
 #[test]
-fn what_predicts_nothing_has_no_prediction() {
-    let mesh = holed_mesh();
-    let mut report = HolefillReport::default();
-    // SAFETY: all pointers are null or to living values.
-    let status = unsafe {
-        let options = with_method(c"fair-c1");
-        holefill_mesh_fill_loop(mesh.0, 0, &options, &mut report, nothing())
+fn every_open_loop_is_the_default_target() {
+    let [all, null] = [holed_mesh(), holed_mesh()];
+    // SAFETY: no pointer but null.
+    let [a, b] = unsafe {
+        let (none, no) = (ptr::null(), ptr::null_mut());
+        [
+            holefill_mesh_fill_all(all.0, nothing()),
+            holefill_mesh_fill(null.0, ptr::null(), none, no, nothing()),
+        ]
     };
-    assert_eq!(status, HOLEFILL_STATUS_OK);
-    assert_eq!(prediction(report, 0), None);
-    holefill_report_free(report);
-}
-
-#[test]
-fn every_method_and_every_parameter_can_be_reached_by_name() {
-    let names: Vec<&str> = (0..holefill_method_count())
-        .map(|i| static_text(holefill_method_name(i)).unwrap())
-        .collect();
-    let expected: Vec<&str> = crate::Method::ALL.iter().map(|m| m.name()).collect();
-    assert_eq!(names, expected);
-    assert!(
-        (0..holefill_method_count()).all(|i| static_text(holefill_method_summary(i)).is_some())
-    );
-    assert!(holefill_method_name(u64::MAX).is_null());
-    assert!(holefill_parameter_name(holefill_parameter_count()).is_null());
-    let mut parameters = HolefillParameters::default();
-    // SAFETY: all pointers are null or to living values.
-    unsafe { holefill_parameters_new(&mut parameters, nothing()) };
-    let mut refused = 0;
-    for i in 0..holefill_parameter_count() {
-        let (name, default) = (holefill_parameter_name(i), holefill_parameter_default(i));
-        assert!(static_text(holefill_parameter_help(i)).is_some());
-        assert!(static_text(holefill_parameter_allowed(i)).is_some());
-        // SAFETY: the texts are static; `text` gives room as it says.
-        let value = text(&|buffer, capacity, length| unsafe {
-            holefill_parameters_get(parameters, name, buffer, capacity, length, nothing())
-        });
-        assert_eq!(Some(&value[..]), static_text(default));
-        // SAFETY: the texts are static.
-        let status = unsafe { holefill_parameters_set(parameters, name, default, nothing()) };
-        assert_eq!(status, HOLEFILL_STATUS_OK);
-        let mut error = HolefillError::default();
-        // SAFETY: the texts are static.
-        let status =
-            unsafe { holefill_parameters_set(parameters, name, c"?".as_ptr(), &mut error) };
-        // Some parameters take any text.
-        if status != HOLEFILL_STATUS_OK {
-            assert_eq!(status, HOLEFILL_STATUS_INVALID_ARGUMENT);
-            assert!(message(error).contains(static_text(name).unwrap()));
-            refused += 1;
-        }
-        holefill_error_free(error);
-    }
-    assert!(refused > 5);
-    let mut error = HolefillError::default();
-    // SAFETY: the texts are static.
-    let status =
-        unsafe { holefill_parameters_set(parameters, c"no".as_ptr(), c"1".as_ptr(), &mut error) };
-    assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
-    assert!(message(error).contains("refine.density"));
-    holefill_error_free(error);
-    holefill_parameters_free(parameters);
+    assert_eq!((a, b), (HOLEFILL_STATUS_OK, HOLEFILL_STATUS_OK));
+    assert_eq!(digest(all.0), digest(null.0));
+    assert!((0..loop_count(all.0)).all(|id| loop_info(all.0, id).is_open == 0));
 }
 
 #[test]
@@ -544,13 +392,7 @@ fn fields_of_the_options_and_parameters_do_the_same() {
     };
     fill_loop(with_field.0, 0, &coarse);
     let with_name = holed_mesh();
-    let mut parameters = HolefillParameters::default();
-    // SAFETY: all pointers are null or to living values.
-    unsafe {
-        holefill_parameters_new(&mut parameters, nothing());
-        let (name, value) = (c"refine.density".as_ptr(), c"2".as_ptr());
-        holefill_parameters_set(parameters, name, value, nothing());
-    }
+    let parameters = parameters(c"refine.density", c"2");
     let named = HolefillFillOptions {
         parameters,
         ..options()
@@ -571,41 +413,23 @@ fn attributes_go_in_come_out_and_are_continued() {
     let heights: Vec<f32> = arrays.positions.iter().map(|p| p[2] as f32).collect();
     let colors: Vec<[u8; 3]> = (0..vertices).map(|i| [(i % 256) as u8, 10, 200]).collect();
     let labels: Vec<i16> = vec![-7; faces];
-    // SAFETY: all pointers are null or to living values.
-    unsafe {
-        for (element, name, components, values) in [
-            (
-                HOLEFILL_ELEMENT_VERTEX,
-                c"height",
-                1,
-                rows(&heights, HOLEFILL_TYPE_F32),
-            ),
-            (
-                HOLEFILL_ELEMENT_VERTEX,
-                c"color",
-                3,
-                rows(&colors, HOLEFILL_TYPE_U8),
-            ),
-            (
-                HOLEFILL_ELEMENT_VERTEX,
-                c"place",
-                3,
-                rows(&arrays.positions, HOLEFILL_TYPE_F64),
-            ),
-            (
-                HOLEFILL_ELEMENT_TRIANGLE,
-                c"label",
-                1,
-                rows(&labels, HOLEFILL_TYPE_I16),
-            ),
-        ] {
-            let name = name.as_ptr();
-            let add = || {
-                holefill_mesh_add_attribute(mesh.0, element, name, components, &values, nothing())
-            };
-            assert_eq!(add(), HOLEFILL_STATUS_OK);
-            assert_eq!(add(), HOLEFILL_STATUS_INVALID_ARGUMENT);
-        }
+    let (vertex, triangle) = (HOLEFILL_ELEMENT_VERTEX, HOLEFILL_ELEMENT_TRIANGLE);
+    let colors = rows(&colors, HOLEFILL_TYPE_U8);
+    for (element, name, components, values) in [
+        (vertex, c"height", 1, rows(&heights, HOLEFILL_TYPE_F32)),
+        (vertex, c"color", 3, colors),
+        (
+            vertex,
+            c"place",
+            3,
+            rows(&arrays.positions, HOLEFILL_TYPE_F64),
+        ),
+        (triangle, c"label", 1, rows(&labels, HOLEFILL_TYPE_I16)),
+    ] {
+        let name = name.as_ptr();
+        let add = || call!(holefill_mesh_add_attribute: mesh.0, element, name, components, &values);
+        assert_eq!(add(), HOLEFILL_STATUS_OK);
+        assert_eq!(add(), HOLEFILL_STATUS_INVALID_ARGUMENT);
     }
     let before = digest(mesh.0);
     assert_eq!(fill_loop(mesh.0, 0, &options()), HOLEFILL_STATUS_OK);
@@ -614,36 +438,16 @@ fn attributes_go_in_come_out_and_are_continued() {
     let mut new_colors = vec![[0_u8; 3]; size.vertex_count as usize];
     let mut as_numbers = vec![[0_f64; 3]; size.vertex_count as usize];
     let mut places = vec![[0_f64; 3]; size.vertex_count as usize];
-    // SAFETY: the outputs describe living memory.
-    unsafe {
-        let read = |element, index, output: &HolefillOutput| {
-            holefill_mesh_read_attribute(mesh.0, element, index, 0, output, nothing())
-        };
-        let labels = place(&mut new_labels, HOLEFILL_TYPE_I16);
-        assert_eq!(
-            read(HOLEFILL_ELEMENT_TRIANGLE, 0, &labels),
-            HOLEFILL_STATUS_OK
-        );
-        let colors = place(&mut new_colors, HOLEFILL_TYPE_U8);
-        assert_eq!(
-            read(HOLEFILL_ELEMENT_VERTEX, 1, &colors),
-            HOLEFILL_STATUS_OK
-        );
-        let numbers = place(&mut as_numbers, HOLEFILL_TYPE_F64);
-        assert_eq!(
-            read(HOLEFILL_ELEMENT_VERTEX, 1, &numbers),
-            HOLEFILL_STATUS_OK
-        );
-        let values = place(&mut places, HOLEFILL_TYPE_F64);
-        assert_eq!(
-            read(HOLEFILL_ELEMENT_VERTEX, 2, &values),
-            HOLEFILL_STATUS_OK
-        );
-        let wrong = place(&mut new_colors, HOLEFILL_TYPE_I8);
-        assert_eq!(
-            read(HOLEFILL_ELEMENT_VERTEX, 1, &wrong),
-            HOLEFILL_STATUS_INVALID_ARGUMENT
-        );
+    let [ok, refused] = [HOLEFILL_STATUS_OK, HOLEFILL_STATUS_INVALID_ARGUMENT];
+    for (element, index, output, expected) in [
+        (triangle, 0, place(&mut new_labels, HOLEFILL_TYPE_I16), ok),
+        (vertex, 1, place(&mut new_colors, HOLEFILL_TYPE_U8), ok),
+        (vertex, 1, place(&mut as_numbers, HOLEFILL_TYPE_F64), ok),
+        (vertex, 2, place(&mut places, HOLEFILL_TYPE_F64), ok),
+        (vertex, 1, place(&mut new_colors, HOLEFILL_TYPE_I8), refused),
+    ] {
+        let status = call!(holefill_mesh_read_attribute: mesh.0, element, index, 0, &output);
+        assert_eq!(status, expected);
     }
     assert!(new_labels.iter().all(|&l| l == -7));
     assert!(
@@ -659,11 +463,7 @@ fn attributes_go_in_come_out_and_are_continued() {
             .flatten()
             .all(|c| c.abs() <= 1.0 + 1e-9)
     );
-    // SAFETY: `text` gives room as it says.
-    let name = text(&|buffer, capacity, length| unsafe {
-        let element = HOLEFILL_ELEMENT_VERTEX;
-        holefill_mesh_attribute_name(mesh.0, element, 1, buffer, capacity, length, nothing())
-    });
+    let name = told!(holefill_mesh_attribute_name: mesh.0, HOLEFILL_ELEMENT_VERTEX, 1);
     assert_eq!(name, "color");
     assert_eq!(undo(mesh.0), HOLEFILL_STATUS_OK);
     assert_eq!(digest(mesh.0), before);
@@ -696,9 +496,8 @@ fn the_log_speaks_only_when_it_is_asked_and_only_as_loud() {
 #[test]
 fn irregularities_are_counted() {
     let mesh = mesh_of(&fixtures::sheet_with_hole().with_vertex([9.0, 9.0, 9.0]));
-    let mut defects = memory::blank::<HolefillDefects>();
-    // SAFETY: the pointer is to a living value.
-    let status = unsafe { holefill_mesh_defects(mesh.0, &mut defects, nothing()) };
+    let mut defects = structs::blank::<HolefillDefects>();
+    let status = call!(holefill_mesh_defects: mesh.0, &mut defects);
     assert_eq!((status, defects.isolated_vertices), (HOLEFILL_STATUS_OK, 1));
 }
 

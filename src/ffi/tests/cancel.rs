@@ -27,11 +27,7 @@ fn a_callback_that_stops_at_its_nth_call_leaves_the_mesh_as_it_was() {
                 progress_data: (&raw mut left).cast(),
                 ..slow(threads)
             };
-            let mut report = HolefillReport::default();
-            // SAFETY: all pointers are null or to living values.
-            let status = unsafe {
-                holefill_mesh_fill_selected(mesh.0, ptr::null(), &options, &mut report, nothing())
-            };
+            let (status, report) = report_of(mesh.0, &every_loop(), &options);
             if left >= 0 {
                 assert_eq!((status, digest(mesh.0)), (HOLEFILL_STATUS_OK, finished));
                 holefill_report_free(report);
@@ -62,8 +58,7 @@ fn stopping_a_plan_or_an_apply_changes_nothing() {
         ..slow(1)
     };
     let mut plan = HolefillPlan::default();
-    // SAFETY: all pointers are null or to living values.
-    let status = unsafe { holefill_mesh_plan_loop(mesh.0, 0, &options, &mut plan, nothing()) };
+    let status = call!(holefill_mesh_plan: mesh.0, &at_loop(0), &options, &mut plan);
     assert_eq!((status, plan.id), (HOLEFILL_STATUS_CANCELLED, 0));
     assert_eq!(digest(mesh.0), before);
 }
@@ -76,22 +71,15 @@ fn holes_whose_time_runs_out_stay_as_they_were_and_say_so() {
         time_budget: 1e-9,
         ..slow(1)
     };
-    let mut report = HolefillReport::default();
-    // SAFETY: all pointers are null or to living values.
-    let status = unsafe { holefill_mesh_fill_loop(mesh.0, 0, &options, &mut report, nothing()) };
+    let (status, report) = report_of(mesh.0, &at_loop(0), &options);
     assert_eq!(status, HOLEFILL_STATUS_INCOMPLETE);
     assert_eq!(digest(mesh.0), before);
-    let mut hole = memory::blank::<HolefillHole>();
-    // SAFETY: the pointer is to a living value.
-    unsafe { holefill_report_hole(report, 0, &mut hole, nothing()) };
+    let hole = hole(report, 0);
     assert_eq!(
         (hole.status, hole.cause),
         (HOLEFILL_HOLE_FAILED, HOLEFILL_CAUSE_LIMIT)
     );
-    // SAFETY: `text` gives room as it says.
-    let reason = text(&|buffer, capacity, length| unsafe {
-        holefill_report_reason(report, 0, buffer, capacity, length, nothing())
-    });
+    let reason = reason(report, 0);
     assert!(reason.contains("time budget"), "{reason}");
     holefill_report_free(report);
     // Enough time is no limit.

@@ -103,8 +103,7 @@ fn latest_stop() -> u64 {
 fn a_stop_on_a_hole_of_twenty_thousand_edges_is_answered_soon() {
     let latest = latest_stop();
     let mesh = mesh_of(&wide());
-    // SAFETY: no pointer but null.
-    unsafe { holefill_mesh_prepare(mesh.0, nothing()) };
+    call!(holefill_mesh_prepare: mesh.0);
     let before = digest(mesh.0);
     for index in 0..holefill_method_count() {
         let method = holefill_method_name(index);

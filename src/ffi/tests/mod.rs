@@ -1,14 +1,36 @@
 //! The C interface as C sees it: every function, every status, every kind of misuse.
 
+/// The status of a call without an error object. Pointers are null or to living values.
+macro_rules! call {
+    ($function:ident: $($argument:expr),*) => {
+        // SAFETY: as said above.
+        unsafe { $function($($argument,)* nothing()) }
+    };
+}
+
+/// Makes a call that must succeed.
+macro_rules! ok {
+    ($function:ident: $($argument:expr),*) => {
+        assert_eq!(call!($function: $($argument),*), HOLEFILL_STATUS_OK)
+    };
+}
+
+/// The text that a function writes to a buffer of the caller.
+macro_rules! told {
+    ($function:ident: $($argument:expr),*) => {
+        text(&|buffer, capacity, length| call!($function: $($argument),*, buffer, capacity, length))
+    };
+}
+
 mod calls;
 mod cancel;
 mod cost;
 #[cfg(unix)]
 mod latency;
 mod misuse;
-mod nulls;
 mod points;
 mod reach;
+mod refusals;
 mod sessions;
 mod threads;
 
@@ -46,6 +68,9 @@ fn place<T>(rows: &mut [T], scalar_type: HolefillType) -> HolefillOutput {
     }
 }
 
+/// A change of options, and how a call with them ends.
+type Change<T> = (fn(&mut T), HolefillStatus);
+
 fn nothing() -> *mut HolefillError {
     ptr::null_mut()
 }
@@ -54,9 +79,7 @@ fn mesh_of(arrays: &Arrays) -> Owned {
     let mut mesh = HolefillMesh::default();
     let positions = rows(&arrays.positions, HOLEFILL_TYPE_F64);
     let triangles = rows(&arrays.triangles, HOLEFILL_TYPE_U32);
-    // SAFETY: all pointers are to living values of the right types.
-    let status = unsafe { holefill_mesh_from_arrays(&positions, &triangles, &mut mesh, nothing()) };
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    ok!(holefill_mesh_from_arrays: &positions, &triangles, &mut mesh);
     Owned(mesh)
 }
 
@@ -69,66 +92,42 @@ fn holed_mesh() -> Owned {
     mesh_of(&holed())
 }
 
-/// What `auto` says of a hole over an edge of a cube.
-fn report_of_creased() -> HolefillReport {
-    let whole = fixtures::cube(12);
-    let mesh = mesh_of(&whole.cut(|[x, y, z]| (x - 1.0).hypot(y - 1.0).hypot(z) < 0.5));
-    let options = with_method(c"auto");
-    let mut report = HolefillReport::default();
-    // SAFETY: all pointers are null or to living values.
-    let status = unsafe { holefill_mesh_fill_loop(mesh.0, 0, &options, &mut report, nothing()) };
-    assert_eq!(status, HOLEFILL_STATUS_OK);
-    report
-}
-
 fn info(mesh: HolefillMesh) -> HolefillMeshInfo {
-    let mut info = memory::blank::<HolefillMeshInfo>();
-    // SAFETY: the pointer is to a living value.
-    let status = unsafe { holefill_mesh_info(mesh, &mut info, nothing()) };
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    let mut info = structs::blank::<HolefillMeshInfo>();
+    ok!(holefill_mesh_info: mesh, &mut info);
     info
 }
 
 fn positions(mesh: HolefillMesh) -> Vec<[f64; 3]> {
     let mut values = vec![[0.0; 3]; info(mesh).vertex_count as usize];
     let output = place(&mut values, HOLEFILL_TYPE_F64);
-    // SAFETY: the output describes living memory.
-    let status = unsafe { holefill_mesh_read_positions(mesh, 0, &output, nothing()) };
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    ok!(holefill_mesh_read_positions: mesh, 0, &output);
     values
 }
 
 fn triangles(mesh: HolefillMesh) -> Vec<[u32; 3]> {
     let mut values = vec![[0; 3]; info(mesh).triangle_count as usize];
     let output = place(&mut values, HOLEFILL_TYPE_U32);
-    // SAFETY: the output describes living memory.
-    let status = unsafe { holefill_mesh_read_triangles(mesh, 0, &output, nothing()) };
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    ok!(holefill_mesh_read_triangles: mesh, 0, &output);
     values
 }
 
 fn loop_count(mesh: HolefillMesh) -> u64 {
     let mut count = 0;
-    // SAFETY: the pointer is to a living value.
-    let status = unsafe { holefill_mesh_loop_count(mesh, &mut count, nothing()) };
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    ok!(holefill_mesh_loop_count: mesh, &mut count);
     count
 }
 
 fn loop_info(mesh: HolefillMesh, id: u64) -> HolefillLoopInfo {
-    let mut info = memory::blank::<HolefillLoopInfo>();
-    // SAFETY: the pointer is to a living value.
-    let status = unsafe { holefill_mesh_loop_info(mesh, id, &mut info, nothing()) };
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    let mut info = structs::blank::<HolefillLoopInfo>();
+    ok!(holefill_mesh_loop_info: mesh, id, &mut info);
     info
 }
 
 fn loop_vertices(mesh: HolefillMesh, id: u64) -> Vec<u64> {
     let mut values = vec![0_u64; loop_info(mesh, id).vertex_count as usize];
     let output = place(&mut values, HOLEFILL_TYPE_U64);
-    // SAFETY: the output describes living memory.
-    let status = unsafe { holefill_mesh_read_loop(mesh, id, 0, &output, nothing()) };
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    ok!(holefill_mesh_read_loop: mesh, id, 0, &output);
     values
 }
 
@@ -148,20 +147,14 @@ fn digest(mesh: HolefillMesh) -> u64 {
     }
     for element in [HOLEFILL_ELEMENT_VERTEX, HOLEFILL_ELEMENT_TRIANGLE] {
         let mut count = 0;
-        // SAFETY: the pointer is to a living value.
-        unsafe { holefill_mesh_attribute_count(mesh, element, &mut count, nothing()) };
+        call!(holefill_mesh_attribute_count: mesh, element, &mut count);
         for index in 0..count {
-            let mut info = memory::blank::<HolefillAttributeInfo>();
-            // SAFETY: the pointer is to a living value.
-            unsafe { holefill_mesh_attribute_info(mesh, element, index, &mut info, nothing()) };
+            let mut info = structs::blank::<HolefillAttributeInfo>();
+            call!(holefill_mesh_attribute_info: mesh, element, index, &mut info);
             let mut values = vec![0.0_f64; (info.count * u64::from(info.components)) as usize];
             let mut output = place(&mut values, HOLEFILL_TYPE_F64);
             output.count = info.count;
-            // SAFETY: the output describes living memory.
-            let status = unsafe {
-                holefill_mesh_read_attribute(mesh, element, index, 0, &output, nothing())
-            };
-            assert_eq!(status, HOLEFILL_STATUS_OK);
+            ok!(holefill_mesh_read_attribute: mesh, element, index, 0, &output);
             add(bytemuck::cast_slice(&values));
         }
     }
@@ -207,7 +200,7 @@ fn message(error: HolefillError) -> String {
 }
 
 fn options() -> HolefillFillOptions {
-    let mut options = memory::blank::<HolefillFillOptions>();
+    let mut options = structs::blank::<HolefillFillOptions>();
     options.threads = 1;
     options
 }
@@ -219,53 +212,118 @@ fn with_method(method: &'static CStr) -> HolefillFillOptions {
     }
 }
 
+/// A target of this kind, and nothing else.
+fn target(kind: HolefillTargetKind) -> HolefillTarget {
+    HolefillTarget {
+        kind,
+        ..structs::blank()
+    }
+}
+
+fn at_loop(loop_id: u64) -> HolefillTarget {
+    HolefillTarget {
+        loop_id,
+        ..target(HOLEFILL_TARGET_LOOP)
+    }
+}
+
+fn at_edge(edge: [u64; 2]) -> HolefillTarget {
+    HolefillTarget {
+        edge,
+        ..target(HOLEFILL_TARGET_EDGE)
+    }
+}
+
+/// Loops or vertices by their numbers.
+fn at_ids(kind: HolefillTargetKind, ids: &HolefillInput) -> HolefillTarget {
+    HolefillTarget {
+        ids,
+        ..target(kind)
+    }
+}
+
+fn selected(selection: &HolefillSelection) -> HolefillTarget {
+    HolefillTarget {
+        selection,
+        ..target(HOLEFILL_TARGET_SELECTED)
+    }
+}
+
+fn every_loop() -> HolefillTarget {
+    target(HOLEFILL_TARGET_SELECTED)
+}
+
+fn fill(
+    mesh: HolefillMesh,
+    target: &HolefillTarget,
+    options: &HolefillFillOptions,
+) -> HolefillStatus {
+    call!(holefill_mesh_fill: mesh, target, options, ptr::null_mut())
+}
+
 fn fill_loop(mesh: HolefillMesh, id: u64, options: &HolefillFillOptions) -> HolefillStatus {
-    // SAFETY: all pointers are null or to living values.
-    unsafe { holefill_mesh_fill_loop(mesh, id, options, ptr::null_mut(), nothing()) }
+    fill(mesh, &at_loop(id), options)
 }
 
 fn fill_all(mesh: HolefillMesh, options: &HolefillFillOptions) -> HolefillStatus {
-    // SAFETY: all pointers are null or to living values.
-    unsafe { holefill_mesh_fill_selected(mesh, ptr::null(), options, ptr::null_mut(), nothing()) }
+    fill(mesh, &every_loop(), options)
+}
+
+/// Fills, and returns the report too.
+fn report_of(
+    mesh: HolefillMesh,
+    target: &HolefillTarget,
+    options: &HolefillFillOptions,
+) -> (HolefillStatus, HolefillReport) {
+    let mut report = HolefillReport::default();
+    let status = call!(holefill_mesh_fill: mesh, target, options, &mut report);
+    (status, report)
+}
+
+fn hole(report: HolefillReport, index: u64) -> HolefillHole {
+    let mut hole = structs::blank::<HolefillHole>();
+    ok!(holefill_report_hole: report, index, &mut hole);
+    hole
+}
+
+fn reason(report: HolefillReport, index: u64) -> String {
+    told!(holefill_report_reason: report, index)
+}
+
+/// Makes a set of parameters with one of them set.
+fn parameters(name: &CStr, value: &CStr) -> HolefillParameters {
+    let mut made = HolefillParameters::default();
+    call!(holefill_parameters_new: &mut made);
+    ok!(holefill_parameters_set: made, name.as_ptr(), value.as_ptr());
+    made
 }
 
 fn undo(mesh: HolefillMesh) -> HolefillStatus {
-    // SAFETY: no pointer but null.
-    unsafe { holefill_mesh_undo(mesh, nothing()) }
+    call!(holefill_mesh_undo: mesh)
 }
 
 fn plan_loop(mesh: HolefillMesh, id: u64, options: &HolefillFillOptions) -> HolefillPlan {
     let mut plan = HolefillPlan::default();
-    // SAFETY: all pointers are null or to living values.
-    let status = unsafe { holefill_mesh_plan_loop(mesh, id, options, &mut plan, nothing()) };
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    ok!(holefill_mesh_plan: mesh, &at_loop(id), options, &mut plan);
     plan
 }
 
 fn apply(plan: HolefillPlan, mesh: HolefillMesh) -> HolefillStatus {
-    // SAFETY: no pointer but null.
-    unsafe { holefill_plan_apply(plan, mesh, ptr::null(), ptr::null_mut(), nothing()) }
+    call!(holefill_plan_apply: plan, mesh, ptr::null(), ptr::null_mut())
 }
 
 /// New vertices and triangles of the patch for a loop.
 fn patch(plan: HolefillPlan, id: u64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
-    let mut info = memory::blank::<HolefillPatchInfo>();
-    // SAFETY: the pointer is to a living value.
-    let status = unsafe { holefill_plan_patch(plan, id, &mut info, nothing()) };
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    let mut info = structs::blank::<HolefillPatchInfo>();
+    ok!(holefill_plan_patch: plan, id, &mut info);
     let mut points = vec![[0.0; 3]; info.vertex_count as usize];
     let mut faces = vec![[0; 3]; info.triangle_count as usize];
     let (to_points, to_faces) = (
         place(&mut points, HOLEFILL_TYPE_F64),
         place(&mut faces, HOLEFILL_TYPE_U32),
     );
-    // SAFETY: the outputs describe living memory.
-    unsafe {
-        let status = holefill_plan_read_positions(plan, id, 0, &to_points, nothing());
-        assert_eq!(status, HOLEFILL_STATUS_OK);
-        let status = holefill_plan_read_triangles(plan, id, 0, &to_faces, nothing());
-        assert_eq!(status, HOLEFILL_STATUS_OK);
-    }
+    ok!(holefill_plan_read_positions: plan, id, 0, &to_points);
+    ok!(holefill_plan_read_triangles: plan, id, 0, &to_faces);
     (points, faces)
 }
 

@@ -20,7 +20,8 @@ fn every_method_is_reached() {
     let names: Vec<&str> = (0..count).map(|i| name(holefill_method_name(i))).collect();
     let known: Vec<&str> = Method::ALL.iter().map(|m| m.name()).collect();
     assert_eq!(names, known);
-    assert!(holefill_method_name(count).is_null());
+    assert!(holefill_method_name(count).is_null() && holefill_method_name(u64::MAX).is_null());
+    assert!((0..count).all(|i| static_text(holefill_method_summary(i)).is_some()));
     for method in names {
         let mesh = holed_mesh();
         let asked = text_of(method);
@@ -28,32 +29,13 @@ fn every_method_is_reached() {
             method: asked.as_ptr(),
             ..options()
         };
-        let mut report = HolefillReport::default();
-        let mut hole = memory::blank::<HolefillHole>();
-        // SAFETY: all pointers are null or to living values.
-        unsafe {
-            let status = holefill_mesh_fill_loop(mesh.0, 0, &options, &mut report, nothing());
-            assert_eq!(status, HOLEFILL_STATUS_OK, "{method}");
-            let status = holefill_report_hole(report, 0, &mut hole, nothing());
-            assert_eq!(status, HOLEFILL_STATUS_OK);
-        }
+        let (status, report) = report_of(mesh.0, &at_loop(0), &options);
+        assert_eq!(status, HOLEFILL_STATUS_OK, "{method}");
+        let hole = hole(report, 0);
         let mut used: Vec<&str> = static_text(hole.method).into_iter().collect();
         for attempt in 0..hole.tried_count {
-            let (mut tried, mut length) = (ptr::null(), 0);
-            // SAFETY: all pointers are null or to living values.
-            unsafe {
-                let no = ptr::null_mut();
-                holefill_report_tried(
-                    report,
-                    0,
-                    attempt,
-                    &mut tried,
-                    no,
-                    0,
-                    &mut length,
-                    nothing(),
-                );
-            }
+            let (mut tried, mut length, no) = (ptr::null(), 0, ptr::null_mut());
+            ok!(holefill_report_tried: report, 0, attempt, &mut tried, no, 0, &mut length);
             used.push(name(tried));
         }
         holefill_report_free(report);
@@ -68,27 +50,21 @@ fn every_method_is_reached() {
 /// Sets a parameter through C; whether it was taken.
 fn set(parameters: HolefillParameters, name: &str, value: &str) -> bool {
     let (name, value) = (text_of(name), text_of(value));
+    let mut error = HolefillError::default();
     // SAFETY: the texts end with a zero byte.
     let status =
-        unsafe { holefill_parameters_set(parameters, name.as_ptr(), value.as_ptr(), nothing()) };
-    let refused = HOLEFILL_STATUS_INVALID_ARGUMENT;
-    assert!([HOLEFILL_STATUS_OK, refused].contains(&status), "{status}");
+        unsafe { holefill_parameters_set(parameters, name.as_ptr(), value.as_ptr(), &mut error) };
+    if status != HOLEFILL_STATUS_OK {
+        assert_eq!(status, HOLEFILL_STATUS_INVALID_ARGUMENT);
+        assert!(message(error).contains(name.to_str().unwrap()));
+        holefill_error_free(error);
+    }
     status == HOLEFILL_STATUS_OK
 }
 
 fn get(parameters: HolefillParameters, name: &str) -> String {
     let name = text_of(name);
-    // SAFETY: `text` gives room as it says.
-    text(&|buffer, capacity, length| unsafe {
-        holefill_parameters_get(
-            parameters,
-            name.as_ptr(),
-            buffer,
-            capacity,
-            length,
-            nothing(),
-        )
-    })
+    told!(holefill_parameters_get: parameters, name.as_ptr())
 }
 
 /// Values that a parameter may take: the words of its description, also with an ending that is named there, and some
@@ -116,12 +92,19 @@ fn every_parameter_is_reached() {
     assert_eq!(count as usize, known.len());
     assert!(holefill_parameter_name(count).is_null());
     let mut parameters = HolefillParameters::default();
-    // SAFETY: the pointer is to a living value.
-    unsafe { holefill_parameters_new(&mut parameters, nothing()) };
+    call!(holefill_parameters_new: &mut parameters);
     let mut asked = Vec::new();
     for (i, parameter) in (0..count).zip(&known) {
         let name = name(holefill_parameter_name(i));
         assert_eq!(name, parameter.name);
+        assert_eq!(
+            static_text(holefill_parameter_help(i)),
+            Some(parameter.help)
+        );
+        assert_eq!(
+            static_text(holefill_parameter_allowed(i)),
+            Some(parameter.allowed)
+        );
         let default = static_text(holefill_parameter_default(i)).unwrap_or_default();
         assert_eq!(get(parameters, name), default, "{name}");
         assert!(set(parameters, name, default), "{name} takes its default");
@@ -132,10 +115,16 @@ fn every_parameter_is_reached() {
         assert!(changed, "{name} never changes: {}", parameter.allowed);
         asked.push(get(parameters, name));
     }
+    let (mut error, no) = (HolefillError::default(), c"no".as_ptr());
+    // SAFETY: the texts are static.
+    let status = unsafe { holefill_parameters_set(parameters, no, no, &mut error) };
+    assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
+    assert!(message(error).contains("refine.density"));
+    holefill_error_free(error);
     // And a fill that is given them gets them.
     let given = HolefillFillOptions {
         parameters,
-        ..memory::blank()
+        ..structs::blank()
     };
     // SAFETY: the pointer is to a living value.
     let (read, _) = unsafe { super::super::options::read_options(&given) }.expect("allowed");

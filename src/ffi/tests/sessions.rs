@@ -94,20 +94,15 @@ fn a_polyline_is_used_as_a_mesh_is() {
     );
     let labels = vec![3_u8; EDGES];
     let mut id = 9;
-    // SAFETY: all pointers are null or to living values.
-    unsafe {
-        let values = rows(&labels, HOLEFILL_TYPE_U8);
-        let empty = rows(&labels[..0], HOLEFILL_TYPE_U8);
-        let name = c"label".as_ptr();
-        let status = holefill_mesh_add_attribute(mesh.0, 1, name, 1, &values, nothing());
-        assert_eq!(status, HOLEFILL_STATUS_OK);
-        let status = holefill_mesh_add_attribute(mesh.0, 2, name, 1, &empty, nothing());
-        assert_eq!(status, HOLEFILL_STATUS_OK);
-        let status = holefill_mesh_find_edge(mesh.0, 47, 0, &mut id, nothing());
-        assert_eq!((status, id), (HOLEFILL_STATUS_OK, 0));
-        let status = holefill_mesh_find_edge(mesh.0, 3, 5, &mut id, nothing());
-        assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
-    }
+    let values = rows(&labels, HOLEFILL_TYPE_U8);
+    let empty = rows(&labels[..0], HOLEFILL_TYPE_U8);
+    let name = c"label".as_ptr();
+    ok!(holefill_mesh_add_attribute: mesh.0, 1, name, 1, &values);
+    ok!(holefill_mesh_add_attribute: mesh.0, 2, name, 1, &empty);
+    let status = call!(holefill_mesh_find_edge: mesh.0, 47, 0, &mut id);
+    assert_eq!((status, id), (HOLEFILL_STATUS_OK, 0));
+    let status = call!(holefill_mesh_find_edge: mesh.0, 3, 5, &mut id);
+    assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
     let methods = [c"flat", c"membrane", c"fair-c1", c"fair-c2", c"auto"];
     for method in methods {
         let plan = plan_loop(mesh.0, 0, &with_method(method));

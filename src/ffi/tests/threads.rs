@@ -56,7 +56,7 @@ fn random_call(
                 (status, READS)
             }
             6 => {
-                let mut info = memory::blank();
+                let mut info = structs::blank();
                 (
                     holefill_mesh_loop_info(mesh, id, &mut info, nothing()),
                     READS,
@@ -66,7 +66,7 @@ fn random_call(
             9 => (undo(mesh), UNDOES),
             10 => {
                 let mut plan = HolefillPlan::default();
-                let status = holefill_mesh_plan_loop(mesh, id, &options, &mut plan, nothing());
+                let status = holefill_mesh_plan(mesh, &at_loop(id), &options, &mut plan, nothing());
                 if status == HOLEFILL_STATUS_OK {
                     let status = apply(plan, mesh);
                     holefill_plan_free(plan);
@@ -76,7 +76,7 @@ fn random_call(
             }
             _ => {
                 let mut plan = HolefillPlan::default();
-                let status = holefill_mesh_plan_loop(mesh, id, &options, &mut plan, nothing());
+                let status = holefill_mesh_plan(mesh, &at_loop(id), &options, &mut plan, nothing());
                 holefill_plan_free(plan);
                 (status, FILLS)
             }

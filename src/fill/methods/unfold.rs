@@ -12,6 +12,7 @@ use crate::fill::options::FillOptions;
 use crate::job::Job;
 use crate::math::Vec3;
 use crate::math::sparse::SpdSolver;
+use crate::patch::chords::{joined_chords, split_chords};
 use crate::patch::{HoleShape, PatchSurface};
 use crate::refine::{RefineOptions, grading, refine, rim_sizes};
 use crate::triangulate::planar::triangulate_planar_region;
@@ -109,41 +110,10 @@ impl<'a> Unfold<'a> {
                 .map(|t| t.map(|position| hole.polygon[position as usize]))
                 .collect(),
         };
-        self.split_joined_chords(&mut surface)?;
+        self.job.ask()?;
+        let mesh = split_chords(&mut surface, |mesh| joined_chords(mesh, hole))?;
+        surface.triangles = mesh.triangles().to_vec();
         Ok(surface)
-    }
-
-    /// Splits the edges between two rim vertices that the mesh joins already, other than those of the rim.
-    fn split_joined_chords(&self, surface: &mut PatchSurface) -> Result<()> {
-        let mut t = 0;
-        while t < surface.triangles.len() {
-            self.job.tick(150)?;
-            for k in 0..3 {
-                let [a, b, c] = rotated(surface.triangles[t], k);
-                if (a.max(b) as usize) >= surface.rim_count || !self.hole.is_joined(a, b) {
-                    continue;
-                }
-                let opposite = (t + 1..surface.triangles.len()).find_map(|u| {
-                    let other = surface.triangles[u];
-                    (0..3)
-                        .map(|l| rotated(other, l))
-                        .find(|o| o[0] == b && o[1] == a)
-                        .map(|o| (u, o[2]))
-                });
-                // Without a triangle on the other side it is an edge of the rim, or was split from there.
-                let Some((u, d)) = opposite else { continue };
-                let middle = surface.points.len() as u32;
-                let point = (surface.points[a as usize] + surface.points[b as usize]) / 2.0;
-                surface.points.push(point);
-                surface.triangles[t] = [a, middle, c];
-                surface.triangles[u] = [b, middle, d];
-                surface.triangles.push([middle, b, c]);
-                surface.triangles.push([middle, a, d]);
-                break;
-            }
-            t += 1;
-        }
-        Ok(())
     }
 
     /// Refines the patch, and returns whether that added vertices.
@@ -159,8 +129,4 @@ impl<'a> Unfold<'a> {
         let report = refine(surface, sizes, &options, &|a, b| self.hole.is_joined(a, b))?;
         Ok(report.splits > 0)
     }
-}
-
-fn rotated(t: [u32; 3], k: usize) -> [u32; 3] {
-    [t[k], t[(k + 1) % 3], t[(k + 2) % 3]]
 }

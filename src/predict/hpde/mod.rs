@@ -252,8 +252,7 @@ fn triangulated<'a>(
             points,
             triangles: triangles.into_iter().map(|t| t.map(number)).collect(),
         };
-        let mut editor = Editor::new(surface, hole);
-        editor.split_joined();
+        let mut editor = Editor::new(surface, hole)?;
         editor.swap_edges(job)?;
         editor.unfold(FOLDED);
         let folds = editor.folds(FOLDED);

@@ -3,9 +3,9 @@
 //!
 //! `O(n log n)` for `n` triangles.
 
+use super::HoleShape;
 use super::mesh::{Halfedge, PatchMesh};
-use super::{HoleShape, PatchSurface};
-use crate::error::Result;
+use crate::math::Vec3;
 
 /// The chords of `mesh` that the mesh round `hole` has, smaller end first, in the order of their half-edges.
 pub(crate) fn joined_chords(mesh: &PatchMesh, hole: &HoleShape) -> Vec<(u32, u32)> {
@@ -17,9 +17,10 @@ pub(crate) fn joined_chords(mesh: &PatchMesh, hole: &HoleShape) -> Vec<(u32, u32
     edges.filter(|&(a, b)| hole.is_joined(a, b)).collect()
 }
 
-/// Splits `chords` of `surface` in the middle, in their order, and returns the triangulation.
+/// Splits the edge of `h` and its opposite `g` in the middle.
 ///
-/// Each of the two triangles of a chord keeps its number and the half of the chord that it runs into first:
+/// Each of the two triangles keeps its number and the half of the edge that its half-edge runs through first; what is
+/// left of that of `h` is appended, then what is left of that of `g`:
 ///
 /// ```text
 ///       c                  c
@@ -30,29 +31,13 @@ pub(crate) fn joined_chords(mesh: &PatchMesh, hole: &HoleShape) -> Vec<(u32, u32
 ///     \   /              \ | /
 ///       d                  d
 /// ```
-///
-/// # Errors
-/// Those of [`PatchMesh::new`].
-pub(crate) fn split_chords(
-    surface: &mut PatchSurface,
-    choose: impl FnOnce(&PatchMesh) -> Vec<(u32, u32)>,
-) -> Result<PatchMesh> {
-    let triangles = std::mem::take(&mut surface.triangles);
-    let mut mesh = PatchMesh::new(triangles, surface.points.len(), surface.rim_count)?;
-    for (a, b) in choose(&mesh) {
-        let Some(h) = mesh.edge_between(a, b) else {
-            continue;
-        };
-        let Some(g) = mesh.opposite(h) else { continue };
-        let (h, g) = (h.min(g), h.max(g));
-        let (t, u, added) = (h / 3, g / 3, mesh.triangles().len() as u32);
-        let ends = [a, b].map(|v| surface.points[v as usize]);
-        surface.points.push((ends[0] + ends[1]) / 2.0);
-        mesh.split(h, g);
-        mesh.place(h, t);
-        // The triangles on the side of `g` change numbers.
-        mesh.place(3 * (added + 1), u);
-        mesh.place(3 * (added + 1) + g % 3, added + 1);
-    }
-    Ok(mesh)
+pub(crate) fn split_middle(mesh: &mut PatchMesh, points: &mut Vec<Vec3>, h: Halfedge, g: Halfedge) {
+    let (t, u, added) = (h / 3, g / 3, mesh.triangles().len() as u32);
+    let ends = [h, g].map(|h| points[mesh.origin(h) as usize]);
+    points.push((ends[0] + ends[1]) / 2.0);
+    mesh.split(h, g);
+    mesh.place(h, t);
+    // The triangles on the side of `g` change numbers.
+    mesh.place(3 * (added + 1), u);
+    mesh.place(3 * (added + 1) + g % 3, added + 1);
 }

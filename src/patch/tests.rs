@@ -144,3 +144,115 @@ proptest! {
         prop_assert_eq!(mesh.euler(), euler);
     }
 }
+
+/// A strip of `2 n` triangles between two circles: a rim and an island, or both sides of a slit.
+fn annulus(n: u32) -> PatchMesh {
+    let quads = (0..n).flat_map(|i| {
+        let j = (i + 1) % n;
+        [[i, j, n + i], [j, n + j, n + i]]
+    });
+    PatchMesh::new(quads.collect(), 2 * n as usize, 2 * n as usize).unwrap()
+}
+
+/// The same, joined by a bridge to a second strip: vertex 0 is passed twice.
+fn pinched(n: u32) -> PatchMesh {
+    let shifted = |v: u32| if v == 0 { 0 } else { v + 2 * n - 1 };
+    let first = annulus(n).triangles().to_vec();
+    let second = first.iter().map(|t| t.map(shifted));
+    let all = first.iter().copied().chain(second).collect();
+    let count = 4 * n as usize - 1;
+    PatchMesh::new(all, count, count).unwrap()
+}
+
+/// Everything that a refused change must leave alone.
+fn contents(mesh: &PatchMesh) -> (Vec<[u32; 3]>, Vec<Option<u32>>, Vec<Vec<u32>>) {
+    let opposites = (0..mesh.halfedge_count()).map(|h| mesh.opposite(h));
+    let rounds = (0..mesh.vertex_count() as u32).map(|v| mesh.corners(v).collect());
+    (
+        mesh.triangles().to_vec(),
+        opposites.collect(),
+        rounds.collect(),
+    )
+}
+
+/// Whether the edge of `h` may be collapsed, from the definition: the triangles that would be left, put together anew,
+/// are a patch with the same rim.
+fn collapses_slowly(mesh: &PatchMesh, h: u32) -> bool {
+    let (gone, kept) = (mesh.origin(h), mesh.target(h));
+    let moved = mesh
+        .living()
+        .map(|t| t.map(|v| if v == gone { kept } else { v }));
+    let left: Vec<[u32; 3]> = moved
+        .filter(|t| t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
+        .collect();
+    let count = left.len();
+    gone as usize >= mesh.rim_count()
+        && count + 2 == mesh.living().count()
+        && PatchMesh::new(left, mesh.vertex_count(), mesh.rim_count()).is_ok_and(|new| {
+            let is_thin = |v: u32| new.closed_start(v).is_some() && new.corners(v).count() < 3;
+            new.rim_pairs() == mesh.rim_pairs() && !(0..mesh.vertex_count() as u32).any(is_thin)
+        })
+}
+
+proptest! {
+    #[test]
+    fn random_changes_keep_every_promise_and_refusals_change_nothing(
+        start in 0..4,
+        n in 3u32..7,
+        steps in prop::collection::vec((0..6, any::<u32>(), any::<u32>()), 0..150),
+    ) {
+        let mut mesh = match start {
+            0 => fan(3),
+            1 => fan(n + 3),
+            2 => annulus(n),
+            _ => pinched(n),
+        };
+        let (rim, euler) = (mesh.rim_pairs(), mesh.euler());
+        for (change, pick, other) in steps {
+            let h = pick % mesh.halfedge_count();
+            let is_gone = mesh.living().count() != mesh.triangles().len()
+                && !mesh.living().any(|t| t == mesh.triangles()[h as usize / 3]);
+            let before = contents(&mesh);
+            let triangles: Vec<_> = mesh.living().collect();
+            match (change, mesh.opposite(h)) {
+                (0 | 1, Some(g)) => {
+                    mesh.split(h, g);
+                }
+                (0 | 1, None) if !is_gone => {
+                    // A triangle of its own has no edge to split: give it a vertex inside.
+                    prop_assert!(!mesh.collapse(h));
+                    prop_assert_eq!(contents(&mesh), before);
+                }
+                (2, Some(g)) if !mesh.has_edge(mesh.apex(h), mesh.apex(g)) => {
+                    let ends = [mesh.origin(h), mesh.target(h)];
+                    mesh.flip(h, g);
+                    prop_assert!(!mesh.has_edge(ends[0], ends[1]));
+                }
+                (3 | 4, _) if !is_gone => {
+                    let (gone, is_allowed) = (mesh.origin(h), collapses_slowly(&mesh, h));
+                    let is_done = mesh.collapse(h);
+                    prop_assert_eq!(is_done, is_allowed);
+                    if is_done {
+                        prop_assert_eq!(mesh.corners(gone).count(), 0);
+                        prop_assert_eq!(mesh.living().count() + 2, triangles.len());
+                    } else {
+                        prop_assert_eq!(contents(&mesh), before);
+                    }
+                }
+                (5, _) if !is_gone => {
+                    let t = other % mesh.triangles().len() as u32;
+                    if triangles.contains(&mesh.triangles()[t as usize]) {
+                        let corners = [mesh.origin(h), mesh.target(h), mesh.apex(h)];
+                        mesh.place(h, t);
+                        prop_assert_eq!(mesh.triangles()[t as usize], corners);
+                        prop_assert_eq!(mesh.living().count(), triangles.len());
+                    }
+                }
+                _ => {}
+            }
+            mesh.validate();
+            prop_assert_eq!(mesh.rim_pairs(), rim.clone());
+            prop_assert_eq!(mesh.euler(), euler);
+        }
+    }
+}

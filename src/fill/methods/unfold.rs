@@ -12,7 +12,8 @@ use crate::fill::options::FillOptions;
 use crate::job::Job;
 use crate::math::Vec3;
 use crate::math::sparse::SpdSolver;
-use crate::patch::chords::{joined_chords, split_chords};
+use crate::patch::chords::{joined_chords, split_middle};
+use crate::patch::mesh::PatchMesh;
 use crate::patch::{HoleShape, PatchSurface};
 use crate::refine::{RefineOptions, grading, refine, rim_sizes};
 use crate::triangulate::planar::triangulate_planar_region;
@@ -111,7 +112,14 @@ impl<'a> Unfold<'a> {
                 .collect(),
         };
         self.job.ask()?;
-        let mesh = split_chords(&mut surface, |mesh| joined_chords(mesh, hole))?;
+        let rim_count = surface.rim_count;
+        let mut mesh = PatchMesh::new(surface.triangles, rim_count, rim_count)?;
+        for (a, b) in joined_chords(&mesh, hole) {
+            let h = mesh.edge_between(a, b);
+            if let Some((h, g)) = h.and_then(|h| Some((h, mesh.opposite(h)?))) {
+                split_middle(&mut mesh, &mut surface.points, h.min(g), h.max(g));
+            }
+        }
         surface.triangles = mesh.triangles().to_vec();
         Ok(surface)
     }

@@ -10,7 +10,7 @@
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
-use crate::patch::chords::{joined_chords, split_chords};
+use crate::patch::chords::{joined_chords, split_middle};
 use crate::patch::mesh::{Halfedge, PatchMesh, next, prev};
 use crate::patch::{HoleShape, PatchSurface};
 use std::collections::BTreeSet;
@@ -26,6 +26,10 @@ pub(super) struct Editor<'a> {
     mesh: PatchMesh,
     points: Vec<Vec3>,
     hole: &'a HoleShape,
+    /// The number of the last change of each triangle, and how many there were. Of two triangles at an edge the one that
+    /// was changed earlier comes first, which settles the order of the swaps.
+    changed: Vec<usize>,
+    changes: usize,
 }
 
 impl<'a> Editor<'a> {
@@ -33,17 +37,29 @@ impl<'a> Editor<'a> {
     ///
     /// # Errors
     /// Those of [`PatchMesh::new`].
-    pub(super) fn new(mut surface: PatchSurface, hole: &'a HoleShape) -> Result<Self> {
-        let mesh = split_chords(&mut surface, |mesh| {
-            let mut chords = joined_chords(mesh, hole);
-            chords.sort_unstable();
-            chords
-        })?;
-        Ok(Self {
-            mesh,
+    pub(super) fn new(surface: PatchSurface, hole: &'a HoleShape) -> Result<Self> {
+        let triangle_count = surface.triangles.len();
+        let point_count = surface.points.len();
+        let mut editor = Self {
+            mesh: PatchMesh::new(surface.triangles, point_count, surface.rim_count)?,
             points: surface.points,
             hole,
-        })
+            changed: (0..triangle_count).collect(),
+            changes: triangle_count,
+        };
+        let mut chords = joined_chords(&editor.mesh, hole);
+        chords.sort_unstable();
+        for (a, b) in chords {
+            let Some([h, g]) = editor.sides(a, b) else {
+                continue;
+            };
+            let added = editor.mesh.triangles().len() as Halfedge;
+            split_middle(&mut editor.mesh, &mut editor.points, h, g);
+            for t in [h / 3, added, g / 3, added + 1] {
+                editor.touch(t);
+            }
+        }
+        Ok(editor)
     }
 
     /// The patch without what is gone, and without points that no triangle has.
@@ -94,11 +110,20 @@ impl<'a> Editor<'a> {
         self.normal(self.triangle(h))
     }
 
+    /// Notes that triangle `t` changes.
+    fn touch(&mut self, t: u32) {
+        self.changed.resize(self.mesh.triangles().len(), 0);
+        self.changed[t as usize] = self.changes;
+        self.changes += 1;
+    }
+
     /// The half-edges between two vertices whose edge has two triangles, that of the first triangle first.
     fn sides(&self, a: u32, b: u32) -> Option<[Halfedge; 2]> {
         let h = self.mesh.edge_between(a, b)?;
         let g = self.mesh.opposite(h)?;
-        Some([h.min(g), h.max(g)])
+        let mut sides = [h, g];
+        sides.sort_by_key(|&h| self.changed[h as usize / 3]);
+        Some(sides)
     }
 
     /// All edges that have two triangles, smaller end first, sorted.
@@ -196,10 +221,14 @@ impl<'a> Editor<'a> {
         }
         let [h, g] = self.sides(a, b)?;
         let h = if self.mesh.origin(h) == gone { h } else { g };
-        self.mesh.collapse(h).then(|| {
-            self.points[kept as usize] = position;
-            kept
-        })
+        let mut left: Vec<u32> = self.mesh.corners(gone).map(|h| h / 3).collect();
+        if !self.mesh.collapse(h) {
+            return None;
+        }
+        left.sort_by_key(|&t| self.changed[t as usize]);
+        left.into_iter().for_each(|t| self.touch(t));
+        self.points[kept as usize] = position;
+        Some(kept)
     }
 
     /// Swaps edges as long as that raises the smaller one of the smallest angles at an edge, and returns how many.
@@ -263,6 +292,8 @@ impl<'a> Editor<'a> {
         self.mesh.flip(h, g);
         self.mesh.place(prev(h), h / 3);
         self.mesh.place(prev(g), g / 3);
+        self.touch(h / 3);
+        self.touch(g / 3);
     }
 
     /// Swaps edges at which the patch is folded, if it is folded less afterwards.
@@ -297,6 +328,10 @@ impl<'a> Editor<'a> {
             }
             if after > before {
                 self.flip(h, g);
+            } else {
+                // What was looked at counts as changed.
+                self.touch(h / 3);
+                self.touch(g / 3);
             }
         }
     }

@@ -18,4 +18,4 @@ mod robustness;
 mod validate;
 
 pub(crate) use density::{grading, rim_sizes};
-pub(crate) use isotropic::{RefineOptions, refine};
+pub(crate) use isotropic::{RefineOptions, RefineReport, refine};

@@ -1,8 +1,8 @@
 //! Whatever the Rust interface can do with a hole can be asked for through C: every method, every parameter.
 
 use super::*;
-use crate::fill::method::Method;
-use crate::fill::options::FillOptions;
+use crate::methods::method::Method;
+use crate::options::FillOptions;
 use std::collections::BTreeSet;
 
 /// A name as the library hands it out.

@@ -3,9 +3,9 @@
 use super::{all_but_the_largest, fill, with_method};
 use crate::Candidate;
 use crate::boundary::select::Selection;
-use crate::fill::method::Method;
 use crate::fixtures::{self, Arrays};
 use crate::math::Vec3;
+use crate::methods::method::Method;
 use std::f64::consts::TAU;
 
 /// The surface chosen for the only hole that was filled, and the largest distance of its new vertices.

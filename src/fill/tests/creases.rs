@@ -2,8 +2,8 @@
 
 use super::{Filled, all_but_the_largest, fill, with_method};
 use crate::boundary::select::Selection;
-use crate::fill::method::Method;
 use crate::fixtures::{Arrays, cube, grid, sheet, sphere, torus};
+use crate::methods::method::Method;
 
 /// The height of a sheet.
 type Height = fn(f64, f64) -> f64;

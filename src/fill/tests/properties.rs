@@ -4,11 +4,11 @@ use super::{METHODS, all_but_the_largest, bits, fill, mesh_of, with_method};
 use crate::boundary::classify::LoopClass;
 use crate::boundary::loops::BoundaryLoops;
 use crate::boundary::select::Selection;
-use crate::fill::method::Method;
-use crate::fill::options::FillOptions;
 use crate::fill::pipeline::fill_holes;
 use crate::fill::report::HoleStatus;
 use crate::fixtures::{self, Arrays, Noise};
+use crate::methods::method::Method;
+use crate::options::FillOptions;
 use proptest::prelude::*;
 
 /// The boundary of a star-shaped region: its radius in every direction.

@@ -2,11 +2,11 @@
 
 use super::{all_but_the_largest, fill, with_method};
 use crate::boundary::select::Selection;
-use crate::fill::method::Method;
 use crate::fill::report::HoleStatus;
 use crate::fixtures::{self, Arrays};
 use crate::job::UNLIMITED;
 use crate::math::{Vec3, unit};
+use crate::methods::method::Method;
 use crate::patch::HoleShape;
 use std::f64::consts::TAU;
 

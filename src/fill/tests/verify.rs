@@ -4,7 +4,6 @@ use super::{mesh_of, with_method};
 use crate::boundary::loops::BoundaryLoops;
 use crate::error::{ErrorKind, Result};
 use crate::fill::hole::{Hole, HoleReach};
-use crate::fill::method::Method;
 use crate::fill::methods::PatchMaker;
 use crate::fill::verify::{check_against_mesh, check_patch, farthest};
 use crate::fixtures::{self, Arrays};
@@ -12,6 +11,7 @@ use crate::job::Job;
 use crate::math::Vec3;
 use crate::mesh::pairing::pair_halfedges;
 use crate::mesh::trimesh::TriMesh;
+use crate::methods::method::Method;
 use crate::patch::PatchSurface;
 
 /// The hole of a mesh with one loop, and its patch.

@@ -1033,9 +1033,9 @@ fn help_names_every_method_and_parameter_with_its_default() {
     let defaults = holefill::FillOptions::default();
     for parameter in holefill::FillOptions::parameters() {
         for text in [
-            parameter.name,
-            parameter.help,
-            parameter.allowed,
+            parameter.name(),
+            parameter.help(),
+            parameter.allowed(),
             &parameter.value(&defaults),
         ] {
             assert!(run.stdout.contains(text), "{text}");

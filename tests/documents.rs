@@ -55,7 +55,7 @@ fn every_parameter_is_documented_with_its_default() {
         .collect();
     for parameter in FillOptions::parameters() {
         let default = parameter.value(&FillOptions::default());
-        let row = format!("| `{}` | `{default}` |", parameter.name);
+        let row = format!("| `{}` | `{default}` |", parameter.name());
         assert!(pages.contains(&row), "{row}");
     }
 }

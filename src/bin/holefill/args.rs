@@ -2,7 +2,7 @@
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
-use holefill::{FillOptions, Method, Parameter};
+use holefill::{FillOptions, Method};
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -298,12 +298,8 @@ fn methods_and_parameters(example: &str) -> String {
     text.push_str("\nParameters for --set:\n");
     let defaults = FillOptions::default();
     for parameter in FillOptions::parameters() {
-        let Parameter {
-            name,
-            help,
-            allowed,
-            ..
-        } = parameter;
+        let (name, help) = (parameter.name(), parameter.help());
+        let allowed = parameter.allowed();
         let value = parameter.value(&defaults);
         let _ = writeln!(text, "  {name}: {help}\n      {allowed} [default: {value}]");
     }

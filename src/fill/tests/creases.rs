@@ -146,7 +146,7 @@ fn smooth_and_coarse_surfaces_have_no_creases() {
 fn creases_can_be_switched_off() {
     let holed = cut_ball(&cube(16), [1.0, 1.0, 0.1], 0.4);
     let mut options = with_method(Method::Auto);
-    options.auto.creases = false;
+    options.methods.auto.creases = false;
     let filled = fill(&holed, &Selection::default(), &options);
     assert_eq!(crease_count(&filled), 0);
     assert!(deviation(&filled, from_cube) > 1e-3);

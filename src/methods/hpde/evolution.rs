@@ -282,9 +282,11 @@ fn cross(
 
 #[cfg(test)]
 mod tests {
+    use super::super::options::DeVariant;
     use super::*;
     use crate::math::random::seeded;
     use crate::methods::sections::arcs::{Arc, profile};
+    use crate::options::entry::Choice;
 
     /// A section whose surface rises steeply at one end and slightly at the other.
     fn section(count: usize) -> Profile {
@@ -302,23 +304,13 @@ mod tests {
         .unwrap()
     }
 
-    const VARIANTS: [(DeMutation, DeCrossover); 6] = [
-        (DeMutation::Rand1, DeCrossover::Bin),
-        (DeMutation::Best1, DeCrossover::Bin),
-        (DeMutation::Rand2, DeCrossover::Bin),
-        (DeMutation::Rand1, DeCrossover::Exp),
-        (DeMutation::Best1, DeCrossover::Exp),
-        (DeMutation::Rand2, DeCrossover::Exp),
-    ];
-
     #[test]
     fn every_variant_improves_within_the_bounds() {
         let profile = section(9);
-        for (mutation, crossover) in VARIANTS {
+        for variant in DeVariant::all() {
             // In the default number of generations chance decides how much is gained; in this many all seeds gain.
             let options = HpdeOptions {
-                mutation,
-                crossover,
+                variant,
                 generations: 300,
                 ..HpdeOptions::default()
             };
@@ -329,7 +321,7 @@ mod tests {
                 }
                 assert!(found.history.windows(2).all(|w| w[1] <= w[0]));
                 let (first, last) = (found.history[0], found.history[found.history.len() - 1]);
-                assert!(last < 0.95 * first, "{mutation:?} {crossover:?} {seed}");
+                assert!(last < 0.95 * first, "{variant:?} {seed}");
                 // The best objective is that of the heights.
                 let again = Individual::new(&profile, found.values).objective;
                 assert!((again - last).abs() < 1e-12);

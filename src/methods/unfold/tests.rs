@@ -1,6 +1,7 @@
 //! Curves whose knot is known.
 
 use super::super::distance::Clearances;
+use super::super::energy::planarity;
 use super::*;
 use crate::job::Job;
 use rand::RngExt;
@@ -127,7 +128,7 @@ fn smallest_distance_slow(points: &[Vec3]) -> f64 {
 #[test]
 fn a_planar_convex_curve_has_no_energy_and_is_projected_as_it_is() {
     let circle = circle(40);
-    assert!(energy::planarity(&circle) < 1e-6);
+    assert!(planarity(&circle) < 1e-6);
     let unfolding = unfold(&circle, &UnfoldOptions::default(), 0, &Job::unlimited()).unwrap();
     assert_eq!((unfolding.runs, unfolding.steps), (0, 0));
     assert!((unfolding.length_ratio - 1.0).abs() < 1e-12);
@@ -139,9 +140,9 @@ fn every_planar_curve_is_without_energy_and_a_corner_out_of_it_is_not() {
     let mut dented: Vec<Vec3> = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 1.0], [0.0, 4.0]]
         .map(|[x, y]| Vec3::new(x, y, 7.0))
         .to_vec();
-    assert!(energy::planarity(&dented) < 1e-6);
+    assert!(planarity(&dented) < 1e-6);
     dented[1].z = 8.0;
-    assert!(energy::planarity(&dented) > 0.1);
+    assert!(planarity(&dented) > 0.1);
     // Three edges of a cube, twice: each two successive corners lie in planes at right angles.
     let cube = [
         [0, 0, 0],
@@ -152,7 +153,7 @@ fn every_planar_curve_is_without_energy_and_a_corner_out_of_it_is_not() {
         [0, 0, 1],
     ];
     let cube: Vec<Vec3> = cube.map(|p| Vec3::from(p.map(f64::from))).to_vec();
-    assert!((energy::planarity(&cube) - 6.0 * TAU / 4.0).abs() < 1e-9);
+    assert!((planarity(&cube) - 6.0 * TAU / 4.0).abs() < 1e-9);
 }
 
 #[test]

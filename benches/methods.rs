@@ -11,7 +11,7 @@ fn main() {
 }
 
 /// A hole of 16 edges.
-#[divan::bench(args = Method::ALL, sample_count = 10, sample_size = 1)]
+#[divan::bench(args = Method::ALL, sample_count = 50, sample_size = 1)]
 fn small_hole(bencher: Bencher, method: Method) {
     let mut hole = Hole::shortest(sheet(12, 4..8));
     bencher.bench_local(|| hole.fill_and_undo(method));

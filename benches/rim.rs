@@ -16,12 +16,12 @@ fn fill(bencher: Bencher, rim: usize, method: Method) {
     bencher.bench_local(|| hole.fill_and_undo(method));
 }
 
-#[divan::bench(args = [16, 32, 64, 128, 256], sample_count = 5, sample_size = 1)]
+#[divan::bench(args = [16, 32, 64, 128, 256], sample_count = 20, sample_size = 1)]
 fn flat(bencher: Bencher, rim: usize) {
     fill(bencher, rim, Method::Flat);
 }
 
-#[divan::bench(args = [16, 32, 64, 128, 256], sample_count = 5, sample_size = 1)]
+#[divan::bench(args = [16, 32, 64, 128, 256], sample_count = 20, sample_size = 1)]
 fn fair_c1(bencher: Bencher, rim: usize) {
     fill(bencher, rim, Method::FairC1);
 }

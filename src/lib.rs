@@ -27,6 +27,7 @@ mod fill;
 #[cfg(test)]
 #[path = "../tests/common/meshes.rs"]
 mod fixtures;
+#[cfg(feature = "io")]
 pub mod io;
 mod job;
 mod math;

@@ -217,16 +217,22 @@ fn files(folder: &str, extensions: &[&str]) -> Vec<SourceFile> {
     found
 }
 
+/// The sources of the library and of the program.
+fn sources() -> Vec<SourceFile> {
+    let mut sources = files("src", &["rs"]);
+    let program = files("program/src", &["rs"]);
+    assert!(!program.is_empty(), "there is no program/src");
+    sources.extend(program);
+    sources
+}
+
 /// The module of a file under `src`; `None` for the program's.
 fn module_of(path: &Path) -> Option<Name> {
-    let path = path.strip_prefix("src").unwrap().with_extension("");
+    let path = path.strip_prefix("src").ok()?.with_extension("");
     let mut module: Name = path
         .iter()
         .map(|part| part.to_str().unwrap().to_owned())
         .collect();
-    if module[0] == "bin" {
-        return None;
-    }
     if ["mod", "lib"].contains(&module[module.len() - 1].as_str()) {
         module.pop();
     }
@@ -306,7 +312,7 @@ fn the_root_has_no_logic() {
 #[test]
 fn files_are_short_enough_to_be_read() {
     let mut complaints = String::new();
-    for file in files("src", &["rs"]) {
+    for file in sources() {
         let lines = file.text.lines().count();
         if lines > MOST_LINES {
             let _ = writeln!(complaints, "{}: {lines} lines", file.path.display());
@@ -329,7 +335,7 @@ fn forbidden_word(module: Option<&Name>, source: &str) -> Option<&'static str> {
 #[test]
 fn no_unsafe_outside_ffi_and_no_hash_order() {
     let mut complaints = String::new();
-    for file in files("src", &["rs"]) {
+    for file in sources() {
         if let Some(word) = forbidden_word(module_of(&file.path).as_ref(), &file.text) {
             let _ = writeln!(complaints, "{}: {word}", file.path.display());
         }
@@ -354,7 +360,9 @@ fn machine_path(text: &str) -> Option<&str> {
 fn no_place_on_a_machine_is_named() {
     const KINDS: [&str; 8] = ["rs", "md", "toml", "cpp", "txt", "sh", "json", "yml"];
     let mut complaints = String::new();
-    for folder in ["src", "tests", "compare", "docs", "benches", "examples"] {
+    for folder in [
+        "src", "program", "tests", "compare", "docs", "benches", "examples",
+    ] {
         for file in files(folder, &KINDS) {
             if let Some(path) = machine_path(&file.text) {
                 let _ = writeln!(complaints, "{}: {path}", file.path.display());

@@ -1,5 +1,4 @@
 //! The command line program, run as users run it: exit status, streams, files.
-#![cfg(feature = "cli")]
 #![allow(clippy::print_stderr)] // A skipped test says so.
 
 use serde_json::Value;

@@ -50,13 +50,16 @@ pub(crate) const STAIRCASE: &[Method] = &[
     Method::Flat,
 ];
 
+/// Makes a list of values for each channel: see [`Extension::extend`].
+type Extend = fn(&Task<'_>, &Surroundings, &[Vec<f64>], &[Vec3]) -> Result<Vec<Vec<f64>>>;
+
 /// How a method extends values that are known round a hole into its patch.
 pub(crate) struct Extension {
     /// How much of the mesh is read.
     pub(crate) reach: fn(&FillOptions) -> HoleReach,
     /// The values at the points given last: a list for each channel. Known are, for each channel, the values at the
     /// rim and then at the points of the surroundings.
-    pub(crate) extend: fn(&Task<'_>, &Surroundings, &[Vec<f64>], &[Vec3]) -> Result<Vec<Vec<f64>>>,
+    pub(crate) extend: Extend,
 }
 
 /// How much of the mesh round a hole a method reads.

@@ -148,12 +148,15 @@ impl<T: Choice> Value for T {
     }
 }
 
+/// Sets an option from a text; false when the text is not allowed.
+type Reader<O> = dyn Fn(&mut O, &str) -> bool + Send + Sync;
+
 /// An option of the options `O` that can be set by its name.
 pub struct Entry<O> {
     name: String,
     help: &'static str,
     allowed: String,
-    read: Box<dyn Fn(&mut O, &str) -> bool + Send + Sync>,
+    read: Box<Reader<O>>,
     write: Box<dyn Fn(&O) -> String + Send + Sync>,
     is_within: Box<dyn Fn(&O) -> bool + Send + Sync>,
 }
@@ -354,27 +357,26 @@ macro_rules! options {
 
         impl $crate::options::entry::Options for $Name {
             fn entries() -> Vec<$crate::options::entry::Entry<Self>> {
-                #[allow(unused_mut, reason = "there are options without entries")]
-                let mut entries = Vec::new();
-                $($(
-                    entries.push($crate::options::entry::Entry::of_field::<$type>(
+                let own: Vec<$crate::options::entry::Entry<Self>> = vec![$($(
+                    $crate::options::entry::Entry::of_field::<$type>(
                         stringify!($field),
                         $help,
                         || $limits,
                         |options: &Self| &options.$field,
                         |options: &mut Self| &mut options.$field,
-                    ));
-                )?)*
-                $($(
-                    for entry in <$group_type as $crate::options::entry::Options>::entries() {
-                        entries.push(entry.within(
-                            $prefix,
-                            |options: &Self| &options.$group,
-                            |options: &mut Self| &mut options.$group,
-                        ));
-                    }
-                )*)?
-                entries
+                    ),
+                )?)*];
+                own.into_iter()
+                    $($(.chain(
+                        <$group_type as $crate::options::entry::Options>::entries()
+                            .into_iter()
+                            .map(|entry| entry.within(
+                                $prefix,
+                                |options: &Self| &options.$group,
+                                |options: &mut Self| &mut options.$group,
+                            ))
+                    ))*)?
+                    .collect()
             }
         }
     };

@@ -7,7 +7,7 @@
 
 use super::base_points::BasePoint;
 use super::rim::Rim;
-use super::sections::Section;
+use super::section::Section;
 use super::segmentation::{Plane, fit_plane};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec3, unit};

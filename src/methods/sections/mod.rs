@@ -17,13 +17,13 @@ mod optimize;
 pub(crate) mod options;
 mod outside;
 mod rim;
-mod sections;
+mod section;
 mod segmentation;
 mod smoothing;
 
 pub(super) use base_points::BasePoint;
 pub(super) use outside::{Known, Outside};
-pub(super) use sections::{Predicted, Prepared};
+pub(super) use section::{Predicted, Prepared};
 
 use super::task::Task;
 use crate::error::{Error, ErrorKind, Result};
@@ -39,7 +39,7 @@ use layout::{Layout, Scene};
 use optimize::Editor;
 use options::{SectionOptions, SectionProjection, SectionTangents};
 use rim::{Rim, check_simple, edge_normals, mean_edge_length};
-use sections::{Section, assemble, prepare};
+use section::{Section, assemble, prepare};
 use smoothing::{Neighbours, smooth};
 use std::borrow::Cow;
 

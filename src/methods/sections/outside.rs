@@ -4,7 +4,7 @@
 //! edges are sorted.
 
 use super::base_points::BasePoint;
-use super::sections::Prepared;
+use super::section::Prepared;
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::{Vec3, unit};

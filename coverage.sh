@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Line coverage of src/ by the tests, with what rustc and LLVM bring along: no other tool is needed.
+# Line coverage of src/ and program/src/ by the tests, with what rustc and LLVM bring along: no other tool is needed.
 #
 #     ./coverage.sh
 #
@@ -67,10 +67,10 @@ for program in "${programs[@]}"; do
     objects+=(--object "$program")
 done
 "$llvm_cov" export --format=lcov --instr-profile "$raw/all.profdata" "${objects[@]:1}" \
-    "$PWD"/src >"$raw/all.lcov"
+    "$PWD"/src "$PWD"/program/src >"$raw/all.lcov"
 
 # What only tests use: 0 and a file or folder without its ending, or the line where a file's test module begins.
-find src -name '*.rs' | sort | while read -r file; do
+find src program/src -name '*.rs' | sort | while read -r file; do
     folder=$(dirname "$file")
     case $(basename "$file") in
     mod.rs | lib.rs | main.rs) children=$folder ;;
@@ -109,7 +109,7 @@ awk -v root="$PWD/" -v minimum=$MINIMUM '
         close("sort -n")
         if (all == 0) { print "coverage: nothing was measured"; exit 1 }
         share = 100 * all_hit / all
-        printf "%6.1f %%  %5d of %5d  lines of src/ (at least %d %% wanted)\n", share, all_hit, all, minimum
+        printf "%6.1f %%  %5d of %5d  lines of src/ and program/src/ (at least %d %% wanted)\n", share, all_hit, all, minimum
         exit share < minimum
     }' "$raw/tests" "$raw/all.lcov"
 [ $tests = passed ] || { echo "coverage: some tests failed" >&2 && exit 1; }

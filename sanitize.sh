@@ -32,7 +32,7 @@ case "$sanitizer" in
         ;;
 esac
 folder="target/sanitize-$sanitizer"
-cargo test --locked "${build_std[@]}" --lib --no-default-features --target "$target" --target-dir "$folder" -- "$filter" \
+cargo test --locked "${build_std[@]}" --package holefill --lib --target "$target" --target-dir "$folder" -- "$filter" \
     --skip answered_soon --skip costs_little # Instrumented code takes longer than these tests allow.
 
 if ! command -v cmake >/dev/null; then

@@ -496,7 +496,7 @@ fn convergence(page: &mut String, cases: &Cases, results: &Path) -> Result<()> {
     for variant in VARIANTS {
         // Its population converges only to what the last generation leaves.
         let parameters = [("hpde.variant", variant), ("hpde.generations", "200")];
-        let hpde = options(Method::Hpde, &parameters)?.hpde;
+        let hpde = options(Method::Hpde, &parameters)?.methods.hpde;
         let curve = evolve_section(8.0, [1.1, 0.3], 9, &hpde, 0)?;
         let degrees = curve.largest_turns.iter().map(|t| t.to_degrees());
         lines.push(Line {
@@ -615,7 +615,7 @@ fn scaling(page: &mut String, results: &Path) -> Result<()> {
         let mut points = 0;
         for (i, solver) in [HpdeSolver::De, HpdeSolver::Direct].into_iter().enumerate() {
             let mut options = options(Method::Hpde, &[])?;
-            options.hpde.solver = solver;
+            options.methods.hpde.solver = solver;
             let filled = fill(&mesh, &Selection::default(), &options, shared::RUNS)?;
             if filled.by(Method::Hpde) != 1 {
                 return Err("a cap was not filled by hpde".into());

@@ -53,6 +53,10 @@ impl Error {
         Self::new(ErrorKind::Geometry, message)
     }
 
+    pub(crate) fn limit(message: impl Into<String>) -> Self {
+        Self::new(ErrorKind::Limit, message)
+    }
+
     /// The caller asked to stop.
     pub(crate) fn cancelled() -> Self {
         Self::new(ErrorKind::Cancelled, "stopped by the caller")

@@ -20,7 +20,6 @@
 #![deny(rustdoc::broken_intra_doc_links)]
 
 mod boundary;
-mod crease;
 mod error;
 mod fair;
 pub mod ffi;
@@ -28,43 +27,41 @@ mod fill;
 #[cfg(test)]
 #[path = "../tests/common/meshes.rs"]
 mod fixtures;
+#[cfg(feature = "io")]
 pub mod io;
 mod job;
 mod math;
 mod mesh;
+mod methods;
+mod options;
 mod patch;
-mod predict;
 mod quality;
 mod reconstruct;
 mod refine;
+mod surroundings;
 mod triangulate;
 
 pub use boundary::classify::LoopClass;
 pub use boundary::loops::{BoundaryLoop, BoundaryLoops};
 pub use boundary::select::Selection;
 pub use error::{Error, ErrorKind, Result};
-pub use fill::method::Method;
-pub use fill::options::{
-    AttributeOptions, AutoOptions, FairWeights, FairingOptions, FillOptions, FilledAttributes,
-    Interpolator, Parameter,
-};
 pub use fill::pipeline::fill_holes;
 pub use fill::progress::{Progress, ProgressCallback};
-pub use fill::report::{Attempt, FillReport, HoleReport, HoleStatus, Prediction};
+pub use fill::report::{Attempt, FillReport, HoleReport, HoleStatus};
 pub use fill::session::{FillPlan, FillSession, PlannedPatch, Target};
 pub use mesh::attributes::{
     Attribute, AttributeValues, Attributes, ListValues, ScalarType, ScalarValues,
 };
 pub use mesh::defects::{Defect, MeshDefects};
 pub use mesh::trimesh::TriMesh;
-pub use predict::grey::GreyOptions;
-pub use predict::hpde::options::{
-    DeCrossover, DeMutation, HpdeOptions, HpdeProjection, HpdeSolver, HpdeTangents,
+pub use methods::{
+    AutoOptions, Candidate, DeCrossover, DeMutation, DeVariant, FairWeights, FairingOptions,
+    FlatOptions, GreyOptions, HpdeOptions, HpdeSolver, Method, MethodOptions, MlsDomain,
+    MlsOptions, MlsUnit, NurbsOptions, Prediction, SectionCurve, SectionOptions, SectionProjection,
+    SectionTangents, UnfoldOptions, UnfoldSolver, Unfolding, evolve_section, unfold_curve,
 };
-pub use predict::hpde::section_curve::{SectionCurve, evolve_section};
-pub use predict::mls::{MlsDomain, MlsOptions, MlsUnit};
-pub use predict::nurbs::NurbsOptions;
-pub use predict::surface::candidates::Candidate;
+pub use options::{
+    AttributeOptions, FillOptions, FilledAttributes, Interpolator, Parameter, RefinementOptions,
+};
 pub use quality::deviation;
 pub use reconstruct::{PointCloud, PointOptions, PointReport, mesh_from_points};
-pub use triangulate::unfold::{UnfoldOptions, UnfoldSolver, Unfolding, unfold_curve};

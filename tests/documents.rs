@@ -1,6 +1,6 @@
 //! The documents agree with the code: examples, methods, parameters, links.
 
-use holefill::{FillOptions, Method};
+use holefill::{BoundaryLoops, FillOptions, Method, Selection, TriMesh, fill_holes};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -48,6 +48,22 @@ fn the_readme_lists_every_method() {
 }
 
 #[test]
+fn the_page_on_adding_a_method_shows_a_method_that_runs() {
+    let shown = block(&read("docs/methods/adding.md"), "```rust", "```");
+    assert_eq!(shown, read("src/methods/centroid.rs"));
+    let method = Method::ALL.into_iter().find(|m| m.name() == "centroid");
+    let options = FillOptions::default()
+        .method(method.expect("it is in the list"))
+        .fallback(false);
+    let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let mut mesh = TriMesh::new(positions, vec![[0, 1, 3], [1, 2, 3], [2, 0, 3]]).unwrap();
+    let boundary = BoundaryLoops::find(&mesh);
+    fill_holes(&mut mesh, &boundary, &Selection::default(), &options, None).unwrap();
+    assert_eq!(mesh.triangles().len(), 6);
+    assert!(BoundaryLoops::find(&mesh).loops.is_empty());
+}
+
+#[test]
 fn every_parameter_is_documented_with_its_default() {
     let pages: String = files(&root().join("docs/methods"))
         .iter()
@@ -55,7 +71,7 @@ fn every_parameter_is_documented_with_its_default() {
         .collect();
     for parameter in FillOptions::parameters() {
         let default = parameter.value(&FillOptions::default());
-        let row = format!("| `{}` | `{default}` |", parameter.name);
+        let row = format!("| `{}` | `{default}` |", parameter.name());
         assert!(pages.contains(&row), "{row}");
     }
 }

@@ -8,9 +8,9 @@ use super::status::{
     HOLEFILL_STATUS_POISONED,
 };
 use super::types::HolefillType;
-use crate::fill::options::FillOptions;
 use crate::fill::report::FillReport;
 use crate::fill::session::{FillPlan, FillSession, PlannedPatch};
+use crate::options::FillOptions;
 use std::sync::{Arc, LazyLock, Mutex, OnceLock};
 
 /// A mesh that C has a handle of.

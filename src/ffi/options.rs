@@ -9,8 +9,8 @@ use super::status::{HOLEFILL_STATUS_LIMIT, HolefillStatus};
 use super::structs::{init_struct, read_struct};
 use super::text::{owned, read_optional_text, read_text, write_text};
 use super::types::{HolefillError, HolefillFillOptions, HolefillParameters};
-use crate::fill::method::Method;
-use crate::fill::options::{FillOptions, Parameter};
+use crate::methods::method::Method;
+use crate::options::{FillOptions, Parameter};
 use std::ffi::{CString, c_char};
 use std::ptr;
 use std::sync::{LazyLock, Mutex};
@@ -142,7 +142,7 @@ pub unsafe extern "C" fn holefill_parameters_get(
 }
 
 fn find(name: &str) -> Option<&'static Parameter> {
-    FillOptions::parameters().find(|p| p.name == name)
+    FillOptions::parameters().find(|p| p.name() == name)
 }
 
 /// Name and summary of each method.
@@ -154,7 +154,7 @@ static METHODS: LazyLock<Vec<[CString; 2]>> = LazyLock::new(|| {
 /// Name, help, allowed values and default of each parameter.
 static PARAMETER_TEXTS: LazyLock<Vec<[CString; 4]>> = LazyLock::new(|| {
     let defaults = FillOptions::default();
-    let texts = |p: &Parameter| [p.name, p.help, p.allowed, &p.value(&defaults)].map(owned);
+    let texts = |p: &Parameter| [p.name(), p.help(), p.allowed(), &p.value(&defaults)].map(owned);
     FillOptions::parameters().map(texts).collect()
 });
 

@@ -12,7 +12,7 @@ use super::text::{owned, write_text};
 use super::types::*;
 use crate::error::ErrorKind;
 use crate::fill::report::{FillReport, HoleReport, HoleStatus};
-use crate::predict::surface::candidates::Candidate;
+use crate::methods::auto::surface::candidates::Candidate;
 use std::ffi::{CString, c_char};
 use std::sync::LazyLock;
 

@@ -7,32 +7,8 @@ use crate::math::{Vec3, cross_normal, unit};
 use crate::mesh::connectivity::target;
 use crate::mesh::rings::{Reach, collect_rings};
 use crate::mesh::trimesh::TriMesh;
+use crate::methods::spec::HoleReach;
 use crate::patch::{HoleShape, Surroundings};
-
-/// How much of the mesh round a hole a method reads.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct HoleReach {
-    /// Rings of triangles, all of each.
-    pub(crate) rings: u32,
-    /// Besides, the triangles that touch a vertex nearer to the rim than so many sampling steps (see
-    /// [`HoleShape::sampling_step`]).
-    pub(crate) steps: f64,
-}
-
-impl HoleReach {
-    /// So many rings, and no more.
-    pub(crate) fn rings(rings: u32) -> Self {
-        Self { rings, steps: 0.0 }
-    }
-
-    /// What covers both.
-    pub(crate) fn union(self, other: Self) -> Self {
-        Self {
-            rings: self.rings.max(other.rings),
-            steps: self.steps.max(other.steps),
-        }
-    }
-}
 
 /// Known triangles round a hole, and which vertices of the mesh theirs are.
 #[derive(Clone, Debug, Default)]

@@ -1,11 +1,8 @@
-//! Filling holes: options, planning, verification, stitching, report.
+//! Filling holes: planning, verification, stitching, report.
 
 mod attributes;
 mod hole;
 mod index;
-pub(crate) mod method;
-mod methods;
-pub(crate) mod options;
 pub(crate) mod pipeline;
 mod plan;
 mod polyline;

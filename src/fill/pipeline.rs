@@ -1,7 +1,6 @@
 //! Fills the chosen holes of a mesh: plans in parallel on the unchanged mesh, then stitches in order.
 
 use super::index::MeshIndex;
-use super::options::{FillOptions, FilledAttributes};
 use super::plan::{Failure, Plan, Planner, chain};
 use super::progress::{ProgressCallback, Watch};
 use super::report::{FillReport, HoleReport, HoleStatus};
@@ -14,6 +13,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::job::Job;
 use crate::mesh::connectivity::{BOUNDARY, origin, target};
 use crate::mesh::trimesh::TriMesh;
+use crate::options::{FillOptions, FilledAttributes};
 use rayon::prelude::*;
 use std::time::Instant;
 
@@ -133,8 +133,8 @@ impl Work<'_> {
         holes: &[HoleLoops<'_>],
     ) -> Vec<Planned> {
         let methods = chain(self.options);
-        let unfolds = methods.first().is_some_and(|m| m.unfolds());
-        let links = unfolds.then(|| LinkedLoops::new(mesh, loops));
+        let needs_unlinked = methods.first().is_some_and(|m| m.spec().needs_unlinked_rim);
+        let links = needs_unlinked.then(|| LinkedLoops::new(mesh, loops));
         self.plan_by(mesh, index, holes, |planner, hole| {
             if let Some(links) = &links {
                 check_links(links, hole)?;

@@ -2,18 +2,20 @@
 //! passes every check.
 
 use super::attributes::{AttributeTask, CarriedAttributes};
-use super::hole::{Hole, HoleReach};
+use super::hole::Hole;
 use super::index::MeshIndex;
-use super::method::Method;
-use super::methods::PatchMaker;
-use super::options::FillOptions;
-use super::report::{Attempt, Prediction};
-use super::verify::{check_patch, farthest};
+use super::report::Attempt;
+use super::verify::check_patch;
 use crate::boundary::loops::BoundaryLoop;
 use crate::error::{Error, ErrorKind, Result};
 use crate::job::Job;
 use crate::math::Vec3;
 use crate::mesh::trimesh::TriMesh;
+use crate::methods::auto::prediction::Prediction;
+use crate::methods::method::Method;
+use crate::methods::spec::HoleReach;
+use crate::methods::task::Task;
+use crate::options::FillOptions;
 use crate::patch::PatchSurface;
 use crate::quality::self_intersection::{AppendedPatch, SelfIntersections};
 use crate::quality::shape::smallest_angle;
@@ -66,29 +68,11 @@ impl From<Error> for Failure {
 
 /// The methods to try, best first: the chosen one, then the simpler ones.
 pub(crate) fn chain(options: &FillOptions) -> Vec<Method> {
-    let staircase = [
-        Method::FairC2,
-        Method::FairC1,
-        Method::Membrane,
-        Method::Flat,
-    ];
-    let first = options.method;
-    let later: &[Method] = match first {
-        _ if !options.fallback => &[],
-        Method::UnfoldFairing => &[
-            Method::UnfoldArea,
-            Method::FairC1,
-            Method::Membrane,
-            Method::Flat,
-        ],
-        Method::UnfoldArea => &[Method::Membrane, Method::Flat],
-        Method::Mls => &[Method::FairC1, Method::Membrane, Method::Flat],
-        _ => {
-            let place = staircase.iter().position(|&m| m == first);
-            &staircase[place.map_or(0, |i| i + 1)..]
-        }
-    };
-    [first].into_iter().chain(later.iter().copied()).collect()
+    let mut methods = vec![options.method];
+    if options.fallback {
+        methods.extend_from_slice(options.method.spec().falls_back_to);
+    }
+    methods
 }
 
 /// What planning needs besides the hole.
@@ -112,7 +96,7 @@ impl Planner<'_> {
     ) -> std::result::Result<Plan, Failure> {
         let reach = methods
             .iter()
-            .map(|&m| PatchMaker::reach(m, self.options))
+            .map(|m| (m.spec().reach)(self.options))
             .fold(HoleReach::rings(1), HoleReach::union);
         self.job.ask()?;
         let hole = Hole::new(self.mesh, outer, islands, reach, self.job)?;
@@ -127,12 +111,12 @@ impl Planner<'_> {
         methods: &[Method],
     ) -> std::result::Result<Plan, Failure> {
         let mut tried = Vec::new();
-        let mut maker = PatchMaker::new(&hole.shape, self.options, self.job);
+        let task = Task::new(&hole.shape, self.options, self.job);
         let mut best: Option<(Candidate, usize)> = None;
         let mut last_error = None;
         let mut knotted = None;
         for &method in methods {
-            let reason = match self.candidate(&hole, &mut maker, method) {
+            let reason = match self.candidate(&hole, &task, method) {
                 Ok(candidate) => {
                     let found = candidate.intersections.total();
                     let is_better = best
@@ -173,20 +157,17 @@ impl Planner<'_> {
         if candidate.intersections.total() > 0 {
             tried.remove(position);
         }
-        let prediction = maker.prediction().cloned();
+        let prediction = task.known::<Prediction>();
+        drop(task);
         let mut plan = self.finish(hole, candidate, tried)?;
         plan.prediction = prediction;
         Ok(plan)
     }
 
-    fn candidate(
-        &self,
-        hole: &Hole,
-        maker: &mut PatchMaker<'_>,
-        method: Method,
-    ) -> Result<Candidate> {
-        let surface = maker.patch(method)?;
-        let twins = check_patch(hole, &surface, farthest(method), self.job)?;
+    fn candidate(&self, hole: &Hole, task: &Task<'_>, method: Method) -> Result<Candidate> {
+        let spec = method.spec();
+        let surface = (spec.make)(task)?;
+        let twins = check_patch(hole, &surface, spec.farthest, self.job)?;
         self.job.ask()?;
         let points: Vec<Vec3> = surface.points[surface.rim_count..]
             .iter()

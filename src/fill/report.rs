@@ -1,9 +1,9 @@
 //! What happened to each hole.
 
-use super::method::Method;
 use crate::boundary::classify::LoopClass;
 use crate::error::ErrorKind;
-use crate::predict::surface::candidates::Candidate;
+use crate::methods::auto::prediction::Prediction;
+use crate::methods::method::Method;
 use serde::{Serialize, Serializer};
 use std::ops::Range;
 
@@ -41,32 +41,6 @@ pub struct Attempt {
     pub method: Method,
     /// Why its patch was not used.
     pub reason: String,
-}
-
-/// How the missing surface was predicted.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Prediction {
-    /// The candidate that was chosen.
-    pub chosen: Candidate,
-    /// The score of each candidate that was compared, which is about the distance in mean rim edges at which it misses
-    /// rings round the hole that it has not seen; the smallest is best. See `docs/methods/auto.md` for what enters it.
-    /// Empty when nothing was compared.
-    #[serde(serialize_with = "as_map")]
-    pub scores: Vec<(Candidate, f64)>,
-    /// Standard deviation of the surroundings' vertices from smooth surfaces, in rim edge lengths.
-    pub noise: f64,
-    /// Whether the hole was taken for the missing tip of a horn, higher than half a sphere.
-    pub is_tip: bool,
-    /// Whether the hole was taken for a gap in a flat face: then the patch lies in the plane of the rim, whatever the
-    /// scores say.
-    pub is_flat: bool,
-    /// Number of creases in the patch; when there are any, `chosen` was not used.
-    #[serde(rename = "creases")]
-    pub crease_count: usize,
-    /// The surfaces between the creases, in the order in which the rim meets them.
-    pub crease_surfaces: Vec<Candidate>,
-    /// Why creases of the surroundings were not continued; `None` when they were, or when there are none.
-    pub without_creases: Option<String>,
 }
 
 /// What happened to one hole.
@@ -148,11 +122,7 @@ macro_rules! by_name {
         }
     )*};
 }
-by_name!(HoleStatus, LoopClass, Method, Candidate);
-
-fn as_map<S: Serializer>(scores: &[(Candidate, f64)], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(scores.iter().copied())
-}
+by_name!(HoleStatus, LoopClass, Method);
 
 fn length<S: Serializer>(range: &Range<u32>, serializer: S) -> Result<S::Ok, S::Error> {
     range.len().serialize(serializer)

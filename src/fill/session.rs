@@ -2,7 +2,6 @@
 
 use super::hole::Hole;
 use super::index::MeshIndex;
-use super::options::FillOptions;
 use super::pipeline::{
     HoleLoops, Planned, Work, blank_report, check_attribute_names, group_holes, thread_pool,
     unfillable_reason,
@@ -20,6 +19,7 @@ use crate::math::Vec3;
 use crate::mesh::attributes::AttributeValues;
 use crate::mesh::connectivity::BOUNDARY;
 use crate::mesh::trimesh::TriMesh;
+use crate::options::FillOptions;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, OnceLock, TryLockError};
 use std::time::{Duration, Instant};

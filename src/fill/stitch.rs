@@ -2,11 +2,9 @@
 //! order in which they were planned.
 
 use super::index::MeshIndex;
-use super::method::Method;
-use super::options::FillOptions;
 use super::pipeline::HoleLoops;
 use super::plan::{Failure, Plan, Planner, chain};
-use super::report::{Attempt, HoleReport, HoleStatus, Prediction};
+use super::report::{Attempt, HoleReport, HoleStatus};
 use super::verify::check_against_mesh;
 use crate::error::{Error, ErrorKind};
 use crate::job::Job;
@@ -14,6 +12,9 @@ use crate::math::Vec3;
 use crate::math::aabb::Aabb;
 use crate::math::box_tree::BoxTree;
 use crate::mesh::trimesh::TriMesh;
+use crate::methods::auto::prediction::Prediction;
+use crate::methods::method::Method;
+use crate::options::FillOptions;
 use crate::quality::Surface;
 use crate::quality::self_intersection::{AppendedPatch, count};
 use crate::quality::spatial::FaceIndex;

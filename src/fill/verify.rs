@@ -1,7 +1,6 @@
 //! Whether a patch may be used: the checks that every filled hole has passed.
 
 use super::hole::Hole;
-use super::method::Method;
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::math::aabb::Aabb;
@@ -14,21 +13,6 @@ use crate::patch::PatchSurface;
 /// A triangle has no area when its double area is below this share of the squared rim edge length, which
 /// is the unit of the hole's coordinates.
 const SMALLEST_DOUBLE_AREA: f64 = 2e-10;
-
-/// A patch that goes further from the middle of its rim than this many diameters of the rim has run away: half a
-/// sphere goes 0.35, two thirds of one 0.61.
-const FARTHEST: f64 = 0.75;
-/// The same for a patch on a predicted surface, which has passed gates of its own: the missing end of a horn is
-/// several times as long as its rim is wide.
-const FARTHEST_PREDICTED: f64 = 3.0;
-
-/// How far a patch of `method` may go from the middle of its rim, in diameters of the rim.
-pub(crate) fn farthest(method: Method) -> f64 {
-    match method {
-        Method::Auto | Method::Curvature => FARTHEST_PREDICTED,
-        _ => FARTHEST,
-    }
-}
 
 /// Checks the patch by itself and against the rim, from whose middle it must not go further than `farthest`
 /// diameters of the rim.

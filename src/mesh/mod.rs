@@ -1,5 +1,9 @@
 //! Triangle meshes: indices, positions and attributes, and who is whose neighbour.
 
+#[cfg_attr(
+    not(feature = "io"),
+    allow(dead_code, reason = "only reading files needs all of it")
+)]
 pub(crate) mod attributes;
 pub(crate) mod connectivity;
 #[cfg(test)]

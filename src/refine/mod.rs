@@ -15,4 +15,4 @@ mod relax;
 mod robustness;
 
 pub(crate) use density::{grading, rim_sizes};
-pub(crate) use isotropic::{RefineOptions, refine};
+pub(crate) use isotropic::{RefineOptions, RefineReport, refine};

@@ -7,7 +7,6 @@ mod polygon;
 pub(crate) mod simple_polygon;
 #[cfg(test)]
 mod test_polygons;
-pub(crate) mod unfold;
 
 pub(crate) use polygon::{HolePolygon, Weight, weight_of};
 

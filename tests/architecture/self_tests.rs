@@ -62,9 +62,9 @@ fn what_is_forbidden_is_found_in_every_form() {
         ),
         ("triangulate", "mod x {} use super::refine::Z;", "refine::Z"),
         (
-            "predict::mls",
-            "use crate::refine::refine;",
-            "refine::refine",
+            "methods::mls",
+            "use crate::fill::session::FillSession;",
+            "fill::session::FillSession",
         ),
         ("patch", "use crate::*;", "*"),
         ("patch", "use super::*;", "*"),
@@ -150,7 +150,7 @@ fn what_is_allowed_is_not_objected_to() {
             "fill::hole",
             "use crate::{fair::laplacian::X, boundary::*, quality::{self, Surface}};",
         ),
-        ("predict::mls", "use crate::triangulate::triangulate;"),
+        ("methods::mls", "use crate::triangulate::triangulate;"),
         (
             "io::ply::body",
             "use super::super::text::Lines; use crate::mesh::attributes::{A, B};",

@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::boundary::select::Selection;
-use crate::fill::options::FillOptions;
 use crate::fill::session::{FillSession, Target};
 use crate::mesh::trimesh::TriMesh;
+use crate::options::FillOptions;
 
 #[test]
 fn a_fill_through_c_gives_the_bits_of_a_fill_through_rust() {

@@ -1,9 +1,9 @@
 //! What the way through C costs over the same work in Rust.
 
 use super::*;
-use crate::fill::options::FillOptions;
 use crate::fill::session::{FillSession, Target};
 use crate::mesh::trimesh::TriMesh;
+use crate::options::FillOptions;
 use std::time::Instant;
 
 /// Squares along one side of the sheet, of two triangles each: `HOLEFILL_COST_SIDE` in the environment, or enough for

@@ -1,8 +1,8 @@
 //! Whatever the Rust interface can do with a hole can be asked for through C: every method, every parameter.
 
 use super::*;
-use crate::fill::method::Method;
-use crate::fill::options::FillOptions;
+use crate::methods::method::Method;
+use crate::options::FillOptions;
 use std::collections::BTreeSet;
 
 /// A name as the library hands it out.
@@ -96,23 +96,23 @@ fn every_parameter_is_reached() {
     let mut asked = Vec::new();
     for (i, parameter) in (0..count).zip(&known) {
         let name = name(holefill_parameter_name(i));
-        assert_eq!(name, parameter.name);
+        assert_eq!(name, parameter.name());
         assert_eq!(
             static_text(holefill_parameter_help(i)),
-            Some(parameter.help)
+            Some(parameter.help())
         );
         assert_eq!(
             static_text(holefill_parameter_allowed(i)),
-            Some(parameter.allowed)
+            Some(parameter.allowed())
         );
         let default = static_text(holefill_parameter_default(i)).unwrap_or_default();
         assert_eq!(get(parameters, name), default, "{name}");
         assert!(set(parameters, name, default), "{name} takes its default");
         assert!(!set(parameters, name, "no such value,,"), "{name}");
-        let changed = candidates(parameter.allowed)
+        let changed = candidates(parameter.allowed())
             .into_iter()
             .any(|value| set(parameters, name, &value) && get(parameters, name) != default);
-        assert!(changed, "{name} never changes: {}", parameter.allowed);
+        assert!(changed, "{name} never changes: {}", parameter.allowed());
         asked.push(get(parameters, name));
     }
     let (mut error, no) = (HolefillError::default(), c"no".as_ptr());
@@ -129,7 +129,7 @@ fn every_parameter_is_reached() {
     // SAFETY: the pointer is to a living value.
     let (read, _) = unsafe { super::super::options::read_options(&given) }.expect("allowed");
     for (parameter, asked) in known.iter().zip(asked) {
-        assert_eq!(parameter.value(&read), asked, "{}", parameter.name);
+        assert_eq!(parameter.value(&read), asked, "{}", parameter.name());
     }
     holefill_parameters_free(parameters);
 }

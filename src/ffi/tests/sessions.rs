@@ -2,10 +2,10 @@
 
 use super::*;
 use crate::boundary::select::Selection;
-use crate::fill::options::FillOptions;
 use crate::fill::progress::Progress;
 use crate::fill::session::{FillSession, Target};
 use crate::mesh::trimesh::TriMesh;
+use crate::options::FillOptions;
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 

@@ -1,7 +1,7 @@
 //! What kind of value a column of vertex attributes holds.
 
-use crate::fill::options::FilledAttributes;
 use crate::mesh::attributes::{Attribute, AttributeValues};
+use crate::options::FilledAttributes;
 
 /// Names of the components of a vertex normal.
 const NORMALS: [&str; 3] = ["nx", "ny", "nz"];

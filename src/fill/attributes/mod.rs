@@ -12,10 +12,8 @@ mod columns;
 mod nearest;
 mod rbf;
 
-use super::hole::{Band, Hole, HoleReach};
-use super::method::Method;
-use super::options::{FillOptions, Interpolator};
-use crate::error::{ErrorKind, Result};
+use super::hole::{Band, Hole};
+use crate::error::{Error, ErrorKind, Result};
 use crate::fair::kharmonic::{extend_from_rim, extend_with_slope};
 use crate::job::Job;
 use crate::math::sparse::SpdSolver;
@@ -23,8 +21,11 @@ use crate::math::{Vec3, cross_normal, unit};
 use crate::mesh::attributes::{Attribute, Attributes, ScalarType};
 use crate::mesh::rings::Reach;
 use crate::mesh::trimesh::TriMesh;
+use crate::methods::method::Method;
+use crate::methods::spec::{Extension, HoleReach};
+use crate::methods::task::Task;
+use crate::options::{FillOptions, Interpolator};
 use crate::patch::PatchSurface;
-use crate::predict::mls::HeightField;
 use columns::{is_interpolated, normal_columns};
 use nearest::{nearest_rim_faces, nearest_rim_vertices};
 use rbf::{Rbf, spread_out};
@@ -134,21 +135,16 @@ impl AttributeTask<'_> {
                 interpolated.retain(|&i| i != c);
             }
         }
-        let interpolator = match (self.options.attributes.interpolator, self.method) {
-            (Interpolator::Auto, Method::Mls) => Interpolator::Mls,
-            (Interpolator::Auto, _) => Interpolator::Rbf,
-            (chosen, _) => chosen,
-        };
+        let interpolator = self.interpolator();
         if interpolator == Interpolator::Nearest || interpolated.is_empty() {
             return Ok(carried);
         }
         let mut reach = Reach::rings(BAND_RINGS);
-        if interpolator == Interpolator::Mls {
-            let vicinity = HoleReach {
-                rings: BAND_RINGS,
-                steps: self.options.mls.beta,
-            };
-            reach = hole.in_mesh(vicinity);
+        if interpolator == Interpolator::Mls
+            && let Some(extension) = self.extension()
+        {
+            let vicinity = (extension.reach)(self.options);
+            reach = hole.in_mesh(HoleReach::rings(BAND_RINGS).union(vicinity));
         }
         let band = hole.band(self.mesh, reach, self.job)?;
         let known: Vec<Channel> = interpolated
@@ -215,7 +211,7 @@ impl AttributeTask<'_> {
         let start = chain.iter().position(|&i| i == first).unwrap_or(0);
         for &interpolator in &chain[start..] {
             let found = match interpolator {
-                Interpolator::Mls => self.by_moving_least_squares(band, channels),
+                Interpolator::Mls => self.by_method(band, channels),
                 Interpolator::Rbf => self.by_radial_functions(band, channels),
                 Interpolator::Biharmonic => self.by_thin_plate(band, channels),
                 _ => self.by_membrane(|i| channels.iter().map(|c| c.values[i]).collect()),
@@ -229,20 +225,29 @@ impl AttributeTask<'_> {
         Ok(None)
     }
 
-    fn by_moving_least_squares(&self, band: &Band, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {
-        let field = HeightField::new(
-            &self.hole.shape,
-            &band.surroundings,
-            &self.options.mls,
-            self.job,
-        )?;
-        let values = |channel: &Channel| -> Vec<f64> {
-            let vertices = field.vertices().iter();
-            vertices.map(|&v| channel.values[v as usize]).collect()
-        };
-        let known: Vec<Vec<f64>> = channels.iter().map(values).collect();
+    /// The interpolator that is asked for; by default that of the method, if it has one.
+    fn interpolator(&self) -> Interpolator {
+        match self.options.attributes.interpolator {
+            Interpolator::Auto if self.method.spec().extension.is_some() => Interpolator::Mls,
+            Interpolator::Auto => Interpolator::Rbf,
+            chosen => chosen,
+        }
+    }
+
+    /// How the method extends values, or the one that [`Interpolator::Mls`] names.
+    fn extension(&self) -> Option<&'static Extension> {
+        let of = |method: Method| method.spec().extension.as_ref();
+        of(self.method).or_else(|| of(Method::Mls))
+    }
+
+    fn by_method(&self, band: &Band, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {
+        let extension = self
+            .extension()
+            .ok_or_else(|| Error::invalid("no method extends values"))?;
+        let task = Task::new(&self.hole.shape, self.options, self.job);
+        let known: Vec<Vec<f64>> = channels.iter().map(|c| c.values.clone()).collect();
         let new_points = &self.surface.points[self.surface.rim_count..];
-        field.extend(&known, new_points, self.job)
+        (extension.extend)(&task, &band.surroundings, &known, new_points)
     }
 
     fn by_radial_functions(&self, band: &Band, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {

@@ -4,13 +4,13 @@ use super::{Filled, METHODS, fill_mesh, with_method};
 use crate::boundary::loops::BoundaryLoops;
 use crate::boundary::select::Selection;
 use crate::error::ErrorKind;
-use crate::fill::method::Method;
-use crate::fill::options::{FillOptions, Interpolator};
 use crate::fill::pipeline::fill_holes;
 use crate::fixtures;
 use crate::math::Vec3;
 use crate::mesh::attributes::{AttributeValues, Attributes, ListValues, ScalarType, ScalarValues};
 use crate::mesh::trimesh::TriMesh;
+use crate::methods::method::Method;
+use crate::options::{FillOptions, Interpolator};
 
 type Columns = Vec<(&'static str, AttributeValues)>;
 

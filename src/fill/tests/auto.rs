@@ -3,9 +3,9 @@
 use super::{all_but_the_largest, fill, with_method};
 use crate::Candidate;
 use crate::boundary::select::Selection;
-use crate::fill::method::Method;
 use crate::fixtures::{self, Arrays};
 use crate::math::Vec3;
+use crate::methods::method::Method;
 use std::f64::consts::TAU;
 
 /// The surface chosen for the only hole that was filled, and the largest distance of its new vertices.
@@ -64,7 +64,7 @@ fn gaps_in_flat_faces_are_flat_though_the_face_bends_further_out() {
     let arrays = fixtures::sheet(24, height).cut(|c| off_center(c[0], c[1]) < 4.0);
     let of = |primitives: bool| {
         let mut options = with_method(Method::Auto);
-        options.auto.primitives = primitives;
+        options.methods.auto.primitives = primitives;
         let filled = fill(&arrays, &all_but_the_largest(), &options);
         let hole = filled.report.holes.iter().find(|h| h.method.is_some());
         let prediction = hole.unwrap().prediction.as_ref().unwrap();
@@ -139,7 +139,7 @@ fn tips_of_cones_come_back() {
         missing(points)
     );
     let mut options = with_method(Method::Auto);
-    options.auto.tips = false;
+    options.methods.auto.tips = false;
     let without = fill(&arrays, &all_but_the_largest(), &options);
     let missed = missing(without.new_points());
     assert!(missed > 5.0 * rim_edge, "{missed}");
@@ -175,7 +175,7 @@ fn ripples_do_not_mislead_and_go_on_at_the_rim() {
     let arrays = fixtures::sheet(100, height).cut(|c| (c[0] - 50.0).hypot(c[1] - 50.0) < 36.0);
     let chosen_farthest_and_crease = |candidate| {
         let mut options = with_method(Method::Auto);
-        options.auto.candidate = candidate;
+        options.methods.auto.candidate = candidate;
         let filled = fill(&arrays, &all_but_the_largest(), &options);
         let hole = filled.report.holes.iter().find(|h| h.method.is_some());
         let hole = hole.unwrap();

@@ -2,9 +2,9 @@
 
 use super::{Filled, METHODS, fill, with_method};
 use crate::boundary::select::Selection;
-use crate::fill::method::Method;
 use crate::fill::report::HoleStatus;
 use crate::fixtures::{self, Arrays};
+use crate::methods::method::Method;
 
 /// Two spheres that touch nothing, with openings towards each other: smooth caps would intersect.
 fn facing_openings() -> Arrays {

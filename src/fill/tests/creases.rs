@@ -2,8 +2,8 @@
 
 use super::{Filled, all_but_the_largest, fill, with_method};
 use crate::boundary::select::Selection;
-use crate::fill::method::Method;
 use crate::fixtures::{Arrays, cube, grid, sheet, sphere, torus};
+use crate::methods::method::Method;
 
 /// The height of a sheet.
 type Height = fn(f64, f64) -> f64;
@@ -146,7 +146,7 @@ fn smooth_and_coarse_surfaces_have_no_creases() {
 fn creases_can_be_switched_off() {
     let holed = cut_ball(&cube(16), [1.0, 1.0, 0.1], 0.4);
     let mut options = with_method(Method::Auto);
-    options.auto.creases = false;
+    options.methods.auto.creases = false;
     let filled = fill(&holed, &Selection::default(), &options);
     assert_eq!(crease_count(&filled), 0);
     assert!(deviation(&filled, from_cube) > 1e-3);

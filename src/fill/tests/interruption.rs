@@ -3,10 +3,10 @@
 use super::{mesh_of, with_method};
 use crate::boundary::loops::BoundaryLoops;
 use crate::fill::index::MeshIndex;
-use crate::fill::method::Method;
 use crate::fill::plan::{Planner, chain};
 use crate::fixtures::{self, Arrays};
 use crate::job::Job;
+use crate::methods::method::Method;
 use std::sync::Mutex;
 
 /// Seconds of processor time that may pass between two questions.

@@ -2,9 +2,9 @@
 
 use super::{METHODS, all_but_the_largest, fill, with_method};
 use crate::boundary::classify::LoopClass;
-use crate::fill::method::Method;
 use crate::fill::report::HoleStatus;
 use crate::fixtures;
+use crate::methods::method::Method;
 
 #[test]
 fn islands_are_joined_to_the_patch_of_their_hole() {

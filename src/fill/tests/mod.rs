@@ -12,8 +12,6 @@ mod shape;
 mod unfold;
 mod verify;
 
-use super::method::Method;
-use super::options::FillOptions;
 use super::pipeline::fill_holes;
 use super::report::{FillReport, HoleStatus};
 use crate::boundary::loops::BoundaryLoops;
@@ -24,6 +22,8 @@ use crate::math::Vec3;
 use crate::mesh::connectivity::BOUNDARY;
 use crate::mesh::pairing::pair_halfedges;
 use crate::mesh::trimesh::TriMesh;
+use crate::methods::method::Method;
+use crate::options::FillOptions;
 use crate::quality::Surface;
 use crate::quality::self_intersection::{AppendedPatch, count};
 use crate::quality::spatial::FaceIndex;

@@ -1,12 +1,11 @@
 //! Statuses, reasons, progress, cancelling and errors.
 
 use super::{Filled, METHODS, all_but_the_largest, bits, fill, mesh_of, with_method};
+use crate::RefinementOptions;
 use crate::boundary::loops::BoundaryLoops;
 use crate::boundary::select::Selection;
 use crate::error::ErrorKind;
 use crate::fill::index::MeshIndex;
-use crate::fill::method::Method;
-use crate::fill::options::FillOptions;
 use crate::fill::pipeline::fill_holes;
 use crate::fill::plan::{Planner, chain};
 use crate::fill::progress::Progress;
@@ -14,6 +13,8 @@ use crate::fill::report::HoleStatus;
 use crate::fixtures::{self, Arrays};
 use crate::job::Job;
 use crate::mesh::trimesh::TriMesh;
+use crate::methods::method::Method;
+use crate::options::FillOptions;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -145,7 +146,7 @@ fn planning_stops_wherever_it_is_cancelled() {
 fn a_limit_on_new_vertices_falls_back_to_the_flat_patch_and_says_so() {
     let sphere = fixtures::sphere(12).cut(|c| c[2] > 0.5);
     let mut options = with_method(Method::FairC2);
-    options.max_new_vertices = 3;
+    options.refinement.max_vertices = 3;
     let filled = fill(&sphere, &Selection::default(), &options);
     let hole = &filled.report.holes[0];
     assert_eq!(
@@ -291,27 +292,19 @@ fn selections_and_options_that_make_no_sense_are_refused() {
         &FillOptions::default(),
         "keep 0-0",
     );
+    let refined = |change: fn(&mut RefinementOptions)| {
+        let mut options = FillOptions::default();
+        change(&mut options.refinement);
+        options
+    };
+    let mut exact = FillOptions::default();
+    exact.methods.flat.exact_limit = usize::MAX;
     let bad = [
-        FillOptions {
-            density: f64::NAN,
-            ..FillOptions::default()
-        },
-        FillOptions {
-            density: 0.0,
-            ..FillOptions::default()
-        },
-        FillOptions {
-            density: -1.0,
-            ..FillOptions::default()
-        },
-        FillOptions {
-            grading: Some(f64::INFINITY),
-            ..FillOptions::default()
-        },
-        FillOptions {
-            exact_limit: usize::MAX,
-            ..FillOptions::default()
-        },
+        refined(|o| o.density = f64::NAN),
+        refined(|o| o.density = 0.0),
+        refined(|o| o.density = -1.0),
+        refined(|o| o.grading = Some(f64::INFINITY)),
+        exact,
     ];
     for options in bad {
         let what = format!("{options:?}");

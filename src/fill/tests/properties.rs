@@ -4,11 +4,12 @@ use super::{METHODS, all_but_the_largest, bits, fill, mesh_of, with_method};
 use crate::boundary::classify::LoopClass;
 use crate::boundary::loops::BoundaryLoops;
 use crate::boundary::select::Selection;
-use crate::fill::method::Method;
-use crate::fill::options::FillOptions;
 use crate::fill::pipeline::fill_holes;
 use crate::fill::report::HoleStatus;
 use crate::fixtures::{self, Arrays, Noise};
+use crate::methods::method::Method;
+use crate::options::FillOptions;
+use crate::{FlatOptions, MethodOptions, RefinementOptions};
 use proptest::prelude::*;
 
 /// The boundary of a star-shaped region: its radius in every direction.
@@ -66,9 +67,10 @@ fn options() -> impl Strategy<Value = FillOptions> {
         |(method, fallback, join_islands, exact_limit, density, grading)| FillOptions {
             fallback,
             join_islands,
-            exact_limit,
-            density,
-            grading,
+            refinement: RefinementOptions::default()
+                .density(density)
+                .grading(grading),
+            methods: MethodOptions::default().flat(FlatOptions::default().exact_limit(exact_limit)),
             ..with_method(METHODS[method])
         },
     )
@@ -116,7 +118,7 @@ fn battered() -> impl Strategy<Value = Arrays> {
 fn check_every_method(arrays: &Arrays) {
     for method in METHODS {
         let mut options = with_method(method);
-        options.max_new_vertices = 2000;
+        options.refinement.max_vertices = 2000;
         fill(arrays, &Selection::default(), &options);
     }
 }

@@ -2,9 +2,9 @@
 
 use super::{METHODS, all_but_the_largest, fill, with_method};
 use crate::boundary::select::Selection;
-use crate::fill::method::Method;
 use crate::fixtures::{self, Arrays};
 use crate::math::Vec3;
+use crate::methods::method::Method;
 use crate::quality::deviation::compare;
 
 fn sphere_with_hole() -> Arrays {

@@ -2,11 +2,12 @@
 
 use super::{all_but_the_largest, fill, with_method};
 use crate::boundary::select::Selection;
-use crate::fill::method::Method;
 use crate::fill::report::HoleStatus;
 use crate::fixtures::{self, Arrays};
 use crate::job::UNLIMITED;
 use crate::math::{Vec3, unit};
+use crate::methods::method::Method;
+use crate::methods::task::Task;
 use crate::patch::HoleShape;
 use std::f64::consts::TAU;
 
@@ -152,8 +153,8 @@ fn chords_that_the_mesh_has_as_edges_are_not_made_again() {
             .flat_map(|i| (i + 1..m).map(move |j| (i, j)))
             .collect();
         let hole = regular_hole(m, all);
-        let mut unfold = crate::fill::methods::Unfold::new(&hole, &options, &UNLIMITED);
-        let surface = unfold.patch(Method::UnfoldArea).unwrap();
+        let task = Task::new(&hole, &options, &UNLIMITED);
+        let surface = (Method::UnfoldArea.spec().make)(&task).unwrap();
         for t in &surface.triangles {
             for k in 0..3 {
                 let (a, b) = (t[k].min(t[(k + 1) % 3]), t[k].max(t[(k + 1) % 3]));

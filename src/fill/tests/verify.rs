@@ -3,15 +3,16 @@
 use super::{mesh_of, with_method};
 use crate::boundary::loops::BoundaryLoops;
 use crate::error::{ErrorKind, Result};
-use crate::fill::hole::{Hole, HoleReach};
-use crate::fill::method::Method;
-use crate::fill::methods::PatchMaker;
-use crate::fill::verify::{check_against_mesh, check_patch, farthest};
+use crate::fill::hole::Hole;
+use crate::fill::verify::{check_against_mesh, check_patch};
 use crate::fixtures::{self, Arrays};
 use crate::job::Job;
 use crate::math::Vec3;
 use crate::mesh::pairing::pair_halfedges;
 use crate::mesh::trimesh::TriMesh;
+use crate::methods::method::Method;
+use crate::methods::spec::HoleReach;
+use crate::methods::task::Task;
 use crate::patch::PatchSurface;
 
 /// The hole of a mesh with one loop, and its patch.
@@ -27,9 +28,8 @@ fn hole_and_patch(arrays: &Arrays, method: Method) -> (TriMesh, Hole, PatchSurfa
     )
     .unwrap();
     let options = with_method(method);
-    let surface = PatchMaker::new(&hole.shape, &options, &Job::unlimited())
-        .patch(method)
-        .unwrap();
+    let job = Job::unlimited();
+    let surface = (method.spec().make)(&Task::new(&hole.shape, &options, &job)).unwrap();
     (mesh, hole, surface)
 }
 
@@ -51,7 +51,7 @@ fn assert_caught(expected: ErrorKind, what: &str, change: impl Fn(&mut PatchSurf
         kind(check_patch(
             &hole,
             &surface,
-            farthest(Method::FairC1),
+            Method::FairC1.spec().farthest,
             &Job::unlimited()
         )),
         None
@@ -61,7 +61,7 @@ fn assert_caught(expected: ErrorKind, what: &str, change: impl Fn(&mut PatchSurf
         kind(check_patch(
             &hole,
             &surface,
-            farthest(Method::FairC1),
+            Method::FairC1.spec().farthest,
             &Job::unlimited()
         )),
         Some(expected),
@@ -78,7 +78,7 @@ fn a_patch_as_it_is_made_is_accepted() {
             kind(check_patch(
                 &hole,
                 &surface,
-                farthest(Method::FairC1),
+                Method::FairC1.spec().farthest,
                 &Job::unlimited()
             )),
             None
@@ -185,7 +185,7 @@ fn an_edge_that_the_mesh_has_already_is_caught() {
         kind(check_patch(
             &hole,
             &free,
-            farthest(Method::FairC1),
+            Method::FairC1.spec().farthest,
             &Job::unlimited()
         )),
         None
@@ -195,7 +195,7 @@ fn an_edge_that_the_mesh_has_already_is_caught() {
         kind(check_patch(
             &hole,
             &taken,
-            farthest(Method::FairC1),
+            Method::FairC1.spec().farthest,
             &Job::unlimited()
         )),
         Some(ErrorKind::Topology)

@@ -1,0 +1,131 @@
+//! The surface that continues one region round a hole.
+//!
+//! It is chosen as [`choice`] does for a smooth hole, from the region's own triangles: those beyond a crease would
+//! bend normals and fits. A region with too few vertices to choose is continued by a plane if it is one, else
+//! by the function that interpolates it.
+
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
+use crate::methods::auto::creases::detect::Regions;
+use crate::methods::auto::surface::algebraic::{AlgebraicSurface, Kind};
+use crate::methods::auto::surface::candidates::Candidate;
+use crate::methods::auto::surface::choice::{self, FITTED_RINGS};
+use crate::methods::auto::surface::samples::SampledBand;
+use crate::methods::auto::surface::{Implicit, Sample};
+use crate::patch::HoleShape;
+use crate::surroundings::Band;
+
+/// A region is a plane when its vertices are this close to one, in rim edge lengths, or by this factor of its noise.
+const PLANE_DISTANCE: f64 = 5e-3;
+const PLANE_NOISE: f64 = 2.0;
+
+/// Vertices that a surface needs.
+const FEWEST_VERTICES: usize = 4;
+/// Most vertices that the surface of a region too small for a choice is fitted to: the cost of an interpolating
+/// function grows with the cube of their number.
+const MOST_VERTICES: usize = 140;
+
+/// The surface of a region.
+pub(crate) struct RegionSurface {
+    pub(crate) candidate: Candidate,
+    pub(crate) surface: Box<dyn Implicit>,
+    /// The score of the candidate, as [`choice::scores`] gives it, and the number of rim edges that it speaks for;
+    /// `None` for a region too small to be scored.
+    pub(crate) score: Option<f64>,
+}
+
+/// The triangles of one region as the surroundings of the part of the rim that they touch.
+fn region_shape(hole: &HoleShape, faces: &[u32]) -> HoleShape {
+    let (rim_count, around) = (hole.points.len(), &hole.surroundings);
+    let triangles: Vec<[u32; 3]> = faces
+        .iter()
+        .map(|&f| around.triangles[f as usize])
+        .collect();
+    let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
+    used.sort_unstable();
+    used.dedup();
+    let mut shape = HoleShape::default();
+    for &v in &used {
+        match (v as usize).checked_sub(rim_count) {
+            None => {
+                shape.points.push(hole.points[v as usize]);
+                shape.edge_lengths.push(hole.edge_lengths[v as usize]);
+            }
+            Some(outer) => {
+                shape.surroundings.points.push(around.points[outer]);
+                shape.surroundings.levels.push(around.levels[outer]);
+            }
+        }
+    }
+    // Every vertex is in the list.
+    let number = |v: u32| used.partition_point(|&u| u < v) as u32;
+    shape.surroundings.triangles = triangles.iter().map(|t| t.map(number)).collect();
+    shape
+}
+
+/// Chooses a surface for each region. `step` is the mean edge length at the rim; `allowed` says which candidates
+/// may be used.
+///
+/// # Errors
+/// [`ErrorKind::Geometry`] when a region is too small; [`ErrorKind::Cancelled`].
+pub(crate) fn fit_regions(
+    hole: &HoleShape,
+    regions: &Regions,
+    step: f64,
+    allowed: &dyn Fn(Candidate, &SampledBand) -> bool,
+    job: &Job<'_>,
+) -> Result<Vec<RegionSurface>> {
+    let fit = |faces: &Vec<u32>| {
+        job.ask()?;
+        let band = Band::new(&region_shape(hole, faces), job)?;
+        let mut samples = SampledBand::new(band, hole, step, true, job);
+        let is_noisy = samples.is_noisy();
+        let candidates: Vec<Candidate> = Candidate::ALL
+            .into_iter()
+            .filter(|c| allowed(*c, &samples))
+            .collect();
+        let scores = choice::scores(&mut samples, &candidates)?;
+        if let Some(candidate) = choice::choose(&scores, is_noisy)
+            && let Some(surface) = candidate.fit_to_rim(&mut samples)?
+        {
+            return Ok(RegionSurface {
+                candidate,
+                surface,
+                score: choice::score_of(&scores, candidate),
+            });
+        }
+        fit_small(&mut samples)
+    };
+    regions.faces.iter().map(fit).collect()
+}
+
+fn fit_small(samples: &mut SampledBand) -> Result<RegionSurface> {
+    let vertices = samples.spread(0..FITTED_RINGS + 1, MOST_VERTICES)?;
+    if vertices.len() < FEWEST_VERTICES {
+        let reason = "the region beside a crease is too small";
+        return Err(Error::new(ErrorKind::Geometry, reason.to_owned()));
+    }
+    let chosen: Vec<Sample> = vertices.iter().map(|&v| samples.sample(v)).collect();
+    let limit = samples.step * PLANE_DISTANCE.max(PLANE_NOISE * samples.noise);
+    if let Some(fit) = AlgebraicSurface::fit(Kind::Plane, &chosen)
+        && fit.rms < limit
+    {
+        return Ok(RegionSurface {
+            candidate: Candidate::Plane,
+            surface: Box::new(fit.surface),
+            score: None,
+        });
+    }
+    let candidate = Candidate::Cubic;
+    let surface = candidate.fit_samples(&chosen).ok_or_else(|| {
+        Error::new(
+            ErrorKind::Geometry,
+            "no surface fits a region beside a crease".to_owned(),
+        )
+    })?;
+    Ok(RegionSurface {
+        candidate,
+        surface,
+        score: None,
+    })
+}

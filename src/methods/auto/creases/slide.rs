@@ -1,0 +1,67 @@
+//! Moves the ends of creases that run along the rim before they leave it.
+//!
+//! The known triangle at a rim edge tells which region the patch continues there, unless the edge lies on a crease
+//! itself: then the patch continues the region on the other side.
+
+use crate::error::{Error, ErrorKind, Result};
+use crate::math::unit;
+use crate::methods::auto::creases::detect::Regions;
+use crate::methods::auto::surface::{Implicit, project};
+use crate::patch::HoleShape;
+
+/// A rim vertex this close to both surfaces, in rim edge lengths, lies on their crease.
+const ON_SURFACE: f64 = 0.1;
+
+/// Cosine of the angle between a crease and a rim edge that lies on it, at least.
+const ALONG: f64 = 0.7;
+
+/// Moves each end along the rim for as long as both surfaces do.
+///
+/// # Errors
+/// [`ErrorKind::Geometry`] when nothing is left of a region.
+pub(crate) fn slide_ends(
+    hole: &HoleShape,
+    regions: &mut Regions,
+    surfaces: &[&dyn Implicit],
+    step: f64,
+) -> Result<()> {
+    let len = hole.polygon.len();
+    let point = |position: usize| hole.points[hole.polygon[position % len] as usize];
+    for k in 0..regions.ends.len() {
+        for _ in 0..len {
+            let end = regions.ends[k];
+            let here = end.position;
+            let sides = [(here + len - 1) % len, here].map(|edge| regions.at_rim[edge]);
+            let lies_on_crease = |position: usize| {
+                let way = unit(point(position) - point(here));
+                let is_on = |side: u32| {
+                    let surface = surfaces[side as usize];
+                    project::distance(surface, &point(position)) < ON_SURFACE * step
+                };
+                -way.dot(&end.outward) > ALONG && sides.into_iter().all(is_on)
+            };
+            let (ahead, behind) = ((here + 1) % len, (here + len - 1) % len);
+            let to = if lies_on_crease(ahead) {
+                regions.at_rim[here] = sides[0];
+                ahead
+            } else if lies_on_crease(behind) {
+                regions.at_rim[behind] = sides[1];
+                behind
+            } else {
+                break;
+            };
+            regions.ends[k].outward = unit(point(here) - point(to));
+            regions.ends[k].position = to;
+        }
+    }
+    let is_end =
+        |position: usize| regions.at_rim[(position + len - 1) % len] != regions.at_rim[position];
+    regions.ends.sort_by_key(|end| end.position);
+    let mut positions = regions.ends.iter().map(|end| end.position);
+    if (0..len).filter(|&i| is_end(i)).eq(positions.by_ref()) {
+        Ok(())
+    } else {
+        let reason = "a region beside a crease ends at the rim";
+        Err(Error::new(ErrorKind::Geometry, reason.to_owned()))
+    }
+}

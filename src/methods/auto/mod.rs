@@ -1,0 +1,258 @@
+//! Predicts the surface that was there and moves a patch onto it.
+//!
+//! The surroundings are read through [`SampledBand`]; candidate surfaces compete in leave-out cross-validation on the
+//! rings round the hole ([`choice`]). A faired patch is then marched onto the winner in short steps, refined as it
+//! grows, and blended into the rim ([`march`]). What comes out passes the [`gates`] or is not used: then the simpler
+//! methods follow. Where creases run into the hole, they are continued across it ([`creases`]).
+
+mod creases;
+mod gates;
+mod march;
+pub(crate) mod options;
+pub(crate) mod prediction;
+pub(crate) mod surface;
+
+use super::fair::faired;
+use super::method::Method;
+use super::spec::{HoleReach, MethodSpec, STAIRCASE};
+use super::start::{refined, sizes_at_rim};
+use super::task::Task;
+use crate::error::{Error, ErrorKind, Result};
+use crate::fair::kharmonic::Order;
+use crate::patch::PatchSurface;
+use crate::surroundings::Band;
+use creases::Creases;
+use gates::TIP_REACH;
+use march::Marcher;
+use prediction::Prediction;
+use surface::candidates::Candidate;
+use surface::choice::Score;
+use surface::flat_rim::RimPlane;
+use surface::samples::SampledBand;
+use surface::tip::{self, Stump};
+use surface::{Implicit, choice, flat_rim};
+
+/// The best of many candidates.
+pub(super) const AUTO: MethodSpec = MethodSpec {
+    name: "auto",
+    make: |task| make(task, true),
+    ..CURVATURE
+};
+
+/// One interpolating function, and no choice.
+pub(super) const CURVATURE: MethodSpec = MethodSpec {
+    name: "curvature",
+    reach: |_| HoleReach::rings(choice::RINGS),
+    falls_back_to: STAIRCASE,
+    farthest: FARTHEST,
+    make: |task| make(task, false),
+    ..MethodSpec::USUAL
+};
+
+/// How far a patch may go from the middle of the rim, in diameters of the rim. It has passed gates of its own: the
+/// missing end of a horn is several times as long as its rim is wide.
+const FARTHEST: f64 = 3.0;
+
+fn make(task: &Task<'_>, chooses: bool) -> Result<PatchSurface> {
+    let mut auto = Auto {
+        task,
+        chooses,
+        prediction: None,
+    };
+    let patch = auto.patch();
+    if let Some(prediction) = auto.prediction {
+        task.keep(prediction);
+    }
+    patch
+}
+
+/// Predicts the surface in one hole.
+struct Auto<'a> {
+    task: &'a Task<'a>,
+    /// Whether candidates compete; else the interpolating function is taken.
+    chooses: bool,
+    /// How the surface was predicted, once it was.
+    prediction: Option<Prediction>,
+}
+
+impl Auto<'_> {
+    /// The patch on the predicted surface.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Geometry`] when no surface could be fitted or the patch on it fails a gate; those of the
+    /// staircase; [`ErrorKind::Cancelled`].
+    fn patch(&mut self) -> Result<PatchSurface> {
+        let task = self.task;
+        let lengths = &task.hole.edge_lengths;
+        let step = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
+        let band = Band::new(self.task.hole, self.task.job)?;
+        let mut samples = SampledBand::new(
+            band,
+            self.task.hole,
+            step,
+            task.options.methods.auto.jets,
+            self.task.job,
+        );
+        self.task.job.ask()?;
+        let is_noisy = samples.is_noisy();
+        let (candidate, scores, stump) = self.choose(&mut samples)?;
+        let smooth_score = choice::score_of(&scores, candidate);
+        self.prediction = Some(Prediction {
+            chosen: candidate,
+            scores,
+            noise: samples.noise,
+            is_tip: false,
+            is_flat: false,
+            crease_count: 0,
+            crease_surfaces: Vec::new(),
+            without_creases: None,
+        });
+        if self.chooses
+            && let Some(patch) = self.patch_with_creases(step, smooth_score)?
+        {
+            return Ok(patch);
+        }
+        self.task.job.ask()?;
+        let plane = self.flat_face(smooth_score);
+        let is_flat = plane.is_some();
+        let surface: Option<Box<dyn Implicit>> = match plane {
+            Some(plane) => Some(Box::new(plane)),
+            None => candidate.fit_to_rim(&mut samples)?,
+        };
+        self.task.job.ask()?;
+        let surface = surface.ok_or_else(|| Error::geometry("no surface fits the surroundings"))?;
+        let (_, diameter) = self.task.hole.middle_and_diameter();
+        let tip = stump.and_then(|s| s.tip_on(surface.as_ref(), diameter, TIP_REACH * diameter));
+        if let Some(prediction) = &mut self.prediction {
+            prediction.is_tip = tip.is_some();
+            prediction.is_flat = is_flat;
+            if is_flat {
+                prediction.chosen = Candidate::Plane;
+            }
+        }
+        let marcher = Marcher {
+            task,
+            surface: surface.as_ref(),
+            step,
+            tip,
+            joins_with_slope: candidate == Candidate::CubicSmoothed && !is_noisy && !is_flat,
+        };
+        let taut = faired(task, Order::Two)?;
+        let (_, sizes) = refined(task)?;
+        let first = marcher.patch(taut.clone(), sizes, &taut);
+        match first {
+            Err(error) if error.kind() == ErrorKind::Geometry && !is_noisy => {
+                match self.march_again(&marcher, &taut) {
+                    Err(other) if other.kind() != ErrorKind::Cancelled => Err(error),
+                    done => done,
+                }
+            }
+            done => done,
+        }
+    }
+
+    /// The patch on the predicted surface where the march from the faired patch failed: from one with common
+    /// curvature, which rises higher over a cap that is more than half a sphere, or from one that is swept across
+    /// the hole, which follows a rim that winds round a tube where a faired patch cuts through it.
+    fn march_again(&self, marcher: &Marcher<'_>, taut: &PatchSurface) -> Result<PatchSurface> {
+        let task = self.task;
+        let start = faired(task, Order::Three)?;
+        let (_, sizes) = refined(task)?;
+        match marcher.patch(start, sizes, taut) {
+            Err(error) if error.kind() == ErrorKind::Geometry => {}
+            done => return done,
+        }
+        let swept = (SWEPT.spec().make)(task)?;
+        let sizes = sizes_at_rim(task, &swept)?;
+        marcher.patch(swept, sizes, taut)
+    }
+}
+
+/// The method whose patches are swept across the hole.
+const SWEPT: Method = Method::Hpde;
+
+/// Candidate, scores, and the stump of a horn if the hole may be its tip.
+type Chosen = (Candidate, Vec<Score>, Option<Stump>);
+
+impl Auto<'_> {
+    /// The patch that continues creases across the hole, if there are any and they are good enough; what speaks
+    /// against them is noted in the prediction.
+    fn patch_with_creases(
+        &mut self,
+        step: f64,
+        smooth_score: Option<f64>,
+    ) -> Result<Option<PatchSurface>> {
+        if !self.task.options.methods.auto.creases {
+            return Ok(None);
+        }
+        let creases = Creases {
+            task: self.task,
+            step,
+            smooth_score: smooth_score.unwrap_or(f64::INFINITY),
+        };
+        let found = creases.patch();
+        let Some(prediction) = &mut self.prediction else {
+            return Ok(None);
+        };
+        match found {
+            Ok(Some(patch)) => {
+                prediction.crease_count = patch.count;
+                prediction.crease_surfaces = patch.surfaces;
+                Ok(Some(patch.surface))
+            }
+            Ok(None) => Ok(None),
+            Err(error) if error.kind() == ErrorKind::Cancelled => Err(error),
+            Err(error) => {
+                prediction.without_creases = Some(error.to_string());
+                Ok(None)
+            }
+        }
+    }
+
+    /// The plane of the rim where the hole is a gap in a flat face and no surface predicts as well as exactly.
+    fn flat_face(&self, smooth_score: Option<f64>) -> Option<RimPlane> {
+        let options = &self.task.options.methods.auto;
+        let is_asked = self.chooses && options.candidate.is_none() && options.primitives;
+        let is_open = smooth_score.is_some_and(|score| !choice::is_as_good_as_exact(score));
+        if is_asked && is_open {
+            flat_rim::plane_of_rim(self.task.hole)
+        } else {
+            None
+        }
+    }
+
+    fn choose(&self, samples: &mut SampledBand) -> Result<Chosen> {
+        let options = &self.task.options.methods.auto;
+        let is_noisy = samples.is_noisy();
+        if let Some(candidate) = options.candidate {
+            return Ok((candidate, Vec::new(), self.stump(samples)));
+        }
+        if !self.chooses {
+            let is_smoothed = is_noisy || samples.is_detail_misleading();
+            let candidate = if is_smoothed {
+                Candidate::CubicSmoothed
+            } else {
+                Candidate::Cubic
+            };
+            return Ok((candidate, Vec::new(), None));
+        }
+        let candidates: Vec<Candidate> = Candidate::ALL
+            .into_iter()
+            .filter(|c| options.allows(*c, samples))
+            .collect();
+        let scores = choice::scores(samples, &candidates)?;
+        let stump = self.stump(samples);
+        let closing = stump
+            .filter(|_| !choice::is_exact(&scores))
+            .and_then(|_| tip::closing_candidate(&scores));
+        let chosen = closing
+            .or_else(|| choice::choose(&scores, is_noisy))
+            .ok_or_else(|| Error::geometry("the surroundings are too small to predict from"))?;
+        Ok((chosen, scores, stump))
+    }
+
+    fn stump(&self, samples: &SampledBand) -> Option<Stump> {
+        let is_asked_for = self.task.options.methods.auto.tips;
+        is_asked_for.then(|| tip::find_stump(self.task.hole, &samples.band))?
+    }
+}

@@ -1,0 +1,31 @@
+//! Surfaces that continue the surroundings of a hole as zero sets of functions.
+
+pub(crate) mod algebraic;
+pub(crate) mod candidates;
+pub(crate) mod choice;
+#[cfg(test)]
+mod fixtures;
+pub(crate) mod flat_rim;
+pub(crate) mod frame;
+pub(crate) mod hermite_rbf;
+pub(crate) mod primitives;
+pub(crate) mod project;
+pub(crate) mod samples;
+pub(crate) mod tip;
+
+use crate::math::Vec3;
+
+/// A point of the known surface with its normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Sample {
+    /// Position, in the hole's coordinates.
+    pub(crate) point: Vec3,
+    /// Unit normal, oriented like the mesh.
+    pub(crate) normal: Vec3,
+}
+
+/// A surface as the zero set of a function.
+pub(crate) trait Implicit: Send + Sync {
+    /// The value at `p`, zero on the surface, and the gradient, which points along the normals.
+    fn value_and_gradient(&self, p: &Vec3) -> (f64, Vec3);
+}

@@ -1,0 +1,264 @@
+//! Patches over sections: curves in planes between facing points of the rim, triangulated together.
+//!
+//! Source: W.-C. Xie, X.-F. Zou, "A triangulation-based hole patching method using differential evolution",
+//! Computer-Aided Design 45, 2013. The files are its seven steps; `docs/methods/hpde.md` lists what is read
+//! differently, and why.
+//!
+//! Not guaranteed: that a hole can be patched. Islands, sections that cross, surfaces that leave the rim too steeply
+//! and patches that fold are refused with their reason. Two triangles that are not neighbours may intersect: whoever
+//! uses the patch must look.
+
+pub(crate) mod arcs;
+mod base_points;
+mod correspondences;
+mod inside;
+mod layout;
+mod optimize;
+pub(crate) mod options;
+mod outside;
+mod rim;
+mod section;
+mod segmentation;
+mod smoothing;
+
+pub(super) use base_points::BasePoint;
+pub(super) use outside::{Known, Outside};
+pub(super) use section::{Predicted, Prepared};
+
+use super::task::Task;
+use crate::error::{Error, ErrorKind, Result};
+use crate::job::Job;
+use crate::math::Vec3;
+use crate::patch::{HoleShape, PatchSurface};
+use crate::surroundings::Band;
+use crate::triangulate::planar::triangulate_planar_region;
+use base_points::base_points;
+use correspondences::{best_start, pairs, start_of_cut};
+use inside::Inside;
+use layout::{Layout, Scene};
+use optimize::Editor;
+use options::{SectionOptions, SectionProjection, SectionTangents};
+use rim::{Rim, check_simple, edge_normals, mean_edge_length};
+use section::{Section, assemble, prepare};
+use smoothing::{Neighbours, smooth};
+use std::borrow::Cow;
+
+/// Rings of known triangles that are read: two for the normals of the rim's neighbours, one more for the next ones.
+pub(super) const RING_COUNT: u32 = 3;
+
+/// Neighbouring triangles that turn by more than the angle with this cosine, 120°, are a fold.
+const FOLDED: f64 = -0.5;
+
+/// Part of the predicted points that may come to lie outside the rim in the plane, where the rim is jagged.
+const MOST_OUTSIDE: f64 = 0.2;
+
+/// Points at which the patch folds are left out, and what is left is triangulated anew, this many times at most.
+const MOST_ROUNDS: usize = 12;
+
+/// What predicts the points of all sections.
+pub(super) type Curves<'a> = dyn Fn(&[BasePoint], &[Prepared]) -> Result<Predicted> + 'a;
+
+/// The patch whose points lie on `curves`: all steps of the paper but the prediction itself.
+///
+/// # Errors
+/// [`ErrorKind::Topology`] and [`ErrorKind::Geometry`] for holes out of the method's reach, with the reason;
+/// [`ErrorKind::Limit`]; those of `curves`; [`ErrorKind::Cancelled`].
+///
+/// # Complexity
+/// `O(n² + p)` for `n` base points and `p` predicted points, besides the prediction.
+pub(super) fn patch_along(
+    task: &Task<'_>,
+    options: &SectionOptions,
+    curves: &Curves<'_>,
+) -> Result<PatchSurface> {
+    let (hole, job) = (task.hole, task.job);
+    let most_points = task.options.refinement.max_vertices;
+    check_simple(hole)?;
+    let rim = read_rim(hole, options, job)?;
+    let mut base = base_points(&rim, options.base_spacing);
+    let n = base.len();
+    // Step 3: the sequence in which partners are known, and where it is folded.
+    let mut fold = None;
+    if n > 0 {
+        let start = match segmentation::cut(&base, options.segment_angle) {
+            Some(cut) => {
+                let start = start_of_cut(n, cut.first, cut.second);
+                let at = (cut.first + n - start % n) % n;
+                fold = Some(at.min(n - 1 - at));
+                start
+            }
+            None => best_start(&base, job)?,
+        };
+        base.rotate_left(start);
+    }
+    let smallest_sine = options.skip_angle.to_radians().sin();
+    let mut pairs = pairs(&base, smallest_sine);
+    // A section along one edge of the rim has nothing to predict.
+    pairs.retain(|p| {
+        let (first, second) = (base[p.first].arc, base[p.second].arc);
+        rim.has_vertex_between(first, second) && rim.has_vertex_between(second, first)
+    });
+    let prepared = prepare(&base, &pairs, rim.edge_length, most_points, options)?;
+    let predicted = curves(&base, &prepared)?;
+    let sections = assemble(&prepared, predicted, rim.edge_length)?;
+    let scene = Scene {
+        rim: &rim,
+        base: &base,
+        sections: &sections,
+    };
+    let on_planes = || match fold {
+        Some(fold) => scene.on_two_planes(fold),
+        None => Ok(scene.on_one_plane()),
+    };
+    let finish = |layout: Layout| finish(hole, &rim, &sections, &layout, options, job);
+    let planes = || on_planes().and_then(finish);
+    let unrolled = || finish(scene.side_by_side(false));
+    let straight = || finish(scene.side_by_side(true));
+    let layouts: &[&dyn Fn() -> Result<PatchSurface>] = match options.projection {
+        SectionProjection::Auto => &[&planes, &unrolled, &straight],
+        SectionProjection::Planes => &[&planes],
+        SectionProjection::Sections => &[&unrolled, &straight],
+    };
+    let mut reason = None;
+    for layout in layouts {
+        match layout() {
+            Ok(patch) => return Ok(patch),
+            Err(error) if error.kind() == ErrorKind::Cancelled => return Err(error),
+            // The reason of the first one is that of the published method.
+            Err(error) => reason = reason.or(Some(error)),
+        }
+    }
+    Err(reason.unwrap_or_else(|| folded(0)))
+}
+
+/// The rim as the prediction sees it, smoothed on request together with its surroundings.
+fn read_rim(hole: &HoleShape, options: &SectionOptions, job: &Job<'_>) -> Result<Rim> {
+    let mut seen = Cow::Borrowed(hole);
+    if options.denoise > 0 {
+        denoise(seen.to_mut(), options.denoise);
+    }
+    let normals = match options.tangents {
+        SectionTangents::Chord => None,
+        SectionTangents::Jet => {
+            job.ask()?;
+            let band = Band::new(&seen, job)?;
+            Some(band.interpolating_normals(seen.points.len(), job)?)
+        }
+    };
+    let in_order = |values: &[Vec3]| -> Vec<Vec3> {
+        let polygon = seen.polygon.iter();
+        polygon.map(|&v| values[v as usize]).collect()
+    };
+    Ok(Rim::new(
+        in_order(&seen.points),
+        edge_normals(&seen)?,
+        normals.map(|n| in_order(&n)),
+        mean_edge_length(&seen),
+    ))
+}
+
+/// Smooths the rim along itself and the rings round it, but for the outermost vertices.
+fn denoise(hole: &mut HoleShape, steps: usize) {
+    let rim_count = hole.points.len();
+    let m = hole.polygon.len();
+    let mut points: Vec<Vec3> = hole.points.clone();
+    points.extend(&hole.surroundings.points);
+    let inner = Neighbours::new(&hole.surroundings.triangles, points.len());
+    let along = (0..m).map(|i| (hole.polygon[i], hole.polygon[(i + 1) % m]));
+    let rim = Neighbours::of_edges(along, points.len());
+    let outermost = hole.surroundings.levels.iter().copied().max().unwrap_or(0);
+    let is_inner = |v: usize| v >= rim_count && hole.surroundings.levels[v - rim_count] < outermost;
+    smooth(&mut points, &rim, |v| v < rim_count, steps);
+    smooth(&mut points, &inner, is_inner, steps);
+    hole.surroundings.points = points.split_off(rim_count);
+    hole.points = points;
+}
+
+/// Steps 6 and 7: the patch on a layout, smoothed and optimized.
+fn finish(
+    hole: &HoleShape,
+    rim: &Rim,
+    sections: &[Section],
+    layout: &Layout,
+    options: &SectionOptions,
+    job: &Job<'_>,
+) -> Result<PatchSurface> {
+    let mut editor = triangulated(hole, sections, layout, job)?;
+    let m = hole.points.len();
+    if options.smoothing {
+        let triangles: Vec<[u32; 3]> = editor.triangles().collect();
+        let points = editor.points_mut();
+        let neighbours = Neighbours::new(&triangles, points.len());
+        smooth(points, &neighbours, |v| v >= m, options.smoothing_steps);
+    }
+    editor.collapse_short(options.shortest_edge * rim.edge_length);
+    editor.swap_edges(job)?;
+    match editor.folds(FOLDED).len() {
+        0 => Ok(editor.finish()),
+        count => Err(folded(count)),
+    }
+}
+
+/// The constrained triangulation, without the points at which it would fold.
+fn triangulated<'a>(
+    hole: &'a HoleShape,
+    sections: &[Section],
+    layout: &Layout,
+    job: &Job<'_>,
+) -> Result<Editor<'a>> {
+    let m = hole.points.len();
+    let mut predicted: Vec<(Vec3, [f64; 2])> = sections
+        .iter()
+        .flat_map(|s| s.points.iter().copied())
+        .zip(layout.inside.iter().copied())
+        .filter_map(|(point, place)| Some((point, place?)))
+        .collect();
+    let inside = Inside::new(&layout.rim);
+    let all = predicted.len();
+    predicted.retain(|p| inside.contains(p.1));
+    let outside = all - predicted.len();
+    if outside as f64 > MOST_OUTSIDE * all as f64 {
+        let message = format!(
+            "the projection is not one to one: {outside} of {all} predicted points fall outside the rim"
+        );
+        return Err(Error::new(ErrorKind::Geometry, message));
+    }
+    for _ in 0..MOST_ROUNDS {
+        let inside: Vec<[f64; 2]> = predicted.iter().map(|p| p.1).collect();
+        let triangles = triangulate_planar_region(&[&layout.rim], &inside, job)?;
+        // The layout has the rim in the order of the polygon.
+        let number = |v: u32| hole.polygon.get(v as usize).copied().unwrap_or(v);
+        let mut points = hole.points.clone();
+        points.extend(predicted.iter().map(|p| p.0));
+        let surface = PatchSurface {
+            rim_count: m,
+            points,
+            triangles: triangles.into_iter().map(|t| t.map(number)).collect(),
+        };
+        let mut editor = Editor::new(surface, hole)?;
+        editor.swap_edges(job)?;
+        editor.unfold(FOLDED);
+        let folds = editor.folds(FOLDED);
+        let mut is_left_out = vec![false; predicted.len()];
+        for v in folds.iter().flatten() {
+            if let Some(index) = (*v as usize).checked_sub(m) {
+                // Beyond the predicted points are those that split an edge.
+                if let Some(left_out) = is_left_out.get_mut(index) {
+                    *left_out = true;
+                }
+            }
+        }
+        if !is_left_out.contains(&true) {
+            // What is folded without any of the points will have to be smoothed.
+            return Ok(editor);
+        }
+        let mut left_out = is_left_out.into_iter();
+        predicted.retain(|_| left_out.next() == Some(false));
+    }
+    Err(folded(0))
+}
+
+fn folded(count: usize) -> Error {
+    let message = format!("the patch is folded along {count} edges");
+    Error::new(ErrorKind::Geometry, message)
+}

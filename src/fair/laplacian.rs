@@ -74,6 +74,7 @@ impl Domain {
         weights: Weights,
         job: &Job<'_>,
     ) -> Result<Self> {
+        job.ask()?;
         let patch_count = surface.points.len();
         let shift = (patch_count - surface.rim_count) as u32;
         let rim_count = surface.rim_count;
@@ -114,6 +115,7 @@ impl Domain {
             triangles,
             levels,
         };
+        job.ask()?;
         domain.assemble(weights, job)?;
         Ok(domain)
     }
@@ -151,6 +153,7 @@ impl Domain {
         // Row and half of the weight of each edge, for either direction, by column.
         let mut slots = starts.clone();
         let mut by_column = vec![(0_u32, 0.0); 6 * self.triangles.len()];
+        job.ask()?;
         for t in &self.triangles {
             job.tick(3)?;
             let corners = || t.map(|v| &self.points[v as usize]);

@@ -256,7 +256,7 @@ impl Task<'_> {
             for i in piece {
                 let separator = &Separator::new(self.triangles[i], self.corners[i]);
                 // Beside long thin triangles each one may take milliseconds.
-                job.tick(10 + found.len())?;
+                job.ask()?;
                 if let Some(own) = &own {
                     own.overlapping(&self.boxes[i], &mut found);
                     for &j in found.iter().filter(|&&j| j as usize > i) {

@@ -41,3 +41,19 @@ pub(crate) fn split_middle(mesh: &mut PatchMesh, points: &mut Vec<Vec3>, h: Half
     mesh.place(3 * (added + 1), u);
     mesh.place(3 * (added + 1) + g % 3, added + 1);
 }
+
+/// Splits in the middle every chord of `mesh` that the mesh round `hole` has, triangle after triangle.
+pub(crate) fn split_joined_chords(mesh: &mut PatchMesh, points: &mut Vec<Vec3>, hole: &HoleShape) {
+    let mut t = 0;
+    while t < mesh.triangles().len() as u32 {
+        let chord = (3 * t..3 * t + 3).find_map(|h| {
+            let g = mesh.opposite(h)?;
+            hole.is_joined(mesh.origin(h), mesh.target(h))
+                .then_some((h, g))
+        });
+        if let Some((h, g)) = chord {
+            split_middle(mesh, points, h, g);
+        }
+        t += 1;
+    }
+}

@@ -165,7 +165,9 @@ fn pinched(n: u32) -> PatchMesh {
 }
 
 /// Everything that a refused change must leave alone.
-fn contents(mesh: &PatchMesh) -> (Vec<[u32; 3]>, Vec<Option<u32>>, Vec<Vec<u32>>) {
+type Contents = (Vec<[u32; 3]>, Vec<Option<u32>>, Vec<Vec<u32>>);
+
+fn contents(mesh: &PatchMesh) -> Contents {
     let opposites = (0..mesh.halfedge_count()).map(|h| mesh.opposite(h));
     let rounds = (0..mesh.vertex_count() as u32).map(|v| mesh.corners(v).collect());
     (

@@ -22,7 +22,7 @@ use crate::fair::laplacian::Weights;
 use crate::math::Vec3;
 use crate::math::sparse::SpdSolver;
 use crate::patch::PatchSurface;
-use crate::patch::chords::{joined_chords, split_middle};
+use crate::patch::chords::split_joined_chords;
 use crate::patch::mesh::PatchMesh;
 use crate::triangulate::planar::triangulate_planar_region;
 use curve::unfold;
@@ -110,12 +110,7 @@ fn embed(task: &Task<'_>) -> Result<PatchSurface> {
     task.job.ask()?;
     let rim_count = surface.rim_count;
     let mut mesh = PatchMesh::new(surface.triangles, rim_count, rim_count)?;
-    for (a, b) in joined_chords(&mesh, hole) {
-        let h = mesh.edge_between(a, b);
-        if let Some((h, g)) = h.and_then(|h| Some((h, mesh.opposite(h)?))) {
-            split_middle(&mut mesh, &mut surface.points, h.min(g), h.max(g));
-        }
-    }
+    split_joined_chords(&mut mesh, &mut surface.points, hole);
     surface.triangles = mesh.triangles().to_vec();
     Ok(surface)
 }

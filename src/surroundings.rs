@@ -143,7 +143,7 @@ impl Band {
         if near.len() + 1 < FEWEST_NEIGHBORS {
             return fallback;
         }
-        let frame = Frame::new(self.points[vertex as usize], fallback);
+        let frame = JetFrame::new(self.points[vertex as usize], fallback);
         let (rows, _) = frame.heights(&self.points, &near);
         let Some(c) = least_squares(&rows, INTERPOLATING_DECAY, 0.0) else {
             return fallback;
@@ -175,7 +175,7 @@ impl Band {
             .iter()
             .map(|&u| self.triangle_normals[u as usize])
             .sum();
-        let frame = Frame::new(self.points[vertex as usize], unit(mean));
+        let frame = JetFrame::new(self.points[vertex as usize], unit(mean));
         let (rows, scale) = frame.heights(&self.points, &near);
         let c = least_squares(&rows, SMOOTHING_DECAY, 1.0)?;
         let squares: f64 = rows
@@ -239,14 +239,14 @@ impl Band {
 }
 
 /// A vertex and the axes round it.
-struct Frame {
+struct JetFrame {
     origin: Vec3,
     normal: Vec3,
     u: Vec3,
     v: Vec3,
 }
 
-impl Frame {
+impl JetFrame {
     fn new(origin: Vec3, normal: Vec3) -> Self {
         // The axis that the normal has least of gives the best conditioned product.
         let axis = normal.iamin();

@@ -19,7 +19,7 @@ mod sync {
     pub(super) use std::sync::TryLockError;
 }
 
-use handles::Table;
+use handles::HandleTable;
 use loom::sync::Arc;
 use loom::sync::atomic::{AtomicUsize, Ordering};
 use loom::thread;
@@ -40,7 +40,7 @@ impl Drop for Object {
     }
 }
 
-fn insert(table: &Table<Object>, kind: u8, name: u32, drops: &Arc<AtomicUsize>) -> u64 {
+fn insert(table: &HandleTable<Object>, kind: u8, name: u32, drops: &Arc<AtomicUsize>) -> u64 {
     let object = Object {
         name,
         drops: Arc::clone(drops),
@@ -53,7 +53,7 @@ fn insert(table: &Table<Object>, kind: u8, name: u32, drops: &Arc<AtomicUsize>) 
 #[test]
 fn of_two_who_free_one_succeeds() {
     loom::model(|| {
-        let table = Arc::new(Table::new(7));
+        let table = Arc::new(HandleTable::new(7));
         let drops = Arc::new(AtomicUsize::new(0));
         let handle = insert(&table, MESH, 1, &drops);
         let other = {
@@ -71,7 +71,7 @@ fn of_two_who_free_one_succeeds() {
 #[test]
 fn who_uses_an_object_keeps_it_alive() {
     loom::model(|| {
-        let table = Arc::new(Table::new(7));
+        let table = Arc::new(HandleTable::new(7));
         let drops = Arc::new(AtomicUsize::new(0));
         let handle = insert(&table, MESH, 1, &drops);
         let user = {
@@ -92,7 +92,7 @@ fn who_uses_an_object_keeps_it_alive() {
 #[test]
 fn a_place_that_is_used_again_does_not_answer_to_its_old_handle() {
     loom::model(|| {
-        let table = Arc::new(Table::new(7));
+        let table = Arc::new(HandleTable::new(7));
         let drops = Arc::new(AtomicUsize::new(0));
         let old = insert(&table, MESH, 1, &drops);
         let user = {
@@ -117,7 +117,7 @@ fn a_place_that_is_used_again_does_not_answer_to_its_old_handle() {
 #[test]
 fn threads_that_insert_get_handles_of_their_own() {
     loom::model(|| {
-        let table = Arc::new(Table::new(7));
+        let table = Arc::new(HandleTable::new(7));
         let drops = Arc::new(AtomicUsize::new(0));
         let first = insert(&table, MESH, 0, &drops);
         let threads: Vec<_> = (1..3)
@@ -146,7 +146,7 @@ fn threads_that_insert_get_handles_of_their_own() {
 #[test]
 fn a_handle_of_another_table_is_of_nothing() {
     loom::model(|| {
-        let (table, other) = (Table::new(7), Table::new(8));
+        let (table, other) = (HandleTable::new(7), HandleTable::new(8));
         let drops = Arc::new(AtomicUsize::new(0));
         let handle = insert(&table, MESH, 1, &drops);
         insert(&other, MESH, 1, &drops);

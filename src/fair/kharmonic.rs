@@ -18,7 +18,7 @@
 //!
 //! Not guaranteed: that the result has no self-intersection, nor that it stays near the rim.
 
-use super::laplacian::{Domain, Entry, Weights};
+use super::laplacian::{Coefficient, FairingDomain, Weights};
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::Vec3;
@@ -62,7 +62,7 @@ pub(crate) fn fair(
         return Ok(());
     }
     let job = solver.job();
-    let domain = Domain::new(surface, surroundings, order as u32 - 1, weights, job)?;
+    let domain = FairingDomain::new(surface, surroundings, order as u32 - 1, weights, job)?;
     let (matrix, right_side) = match order {
         Order::One => membrane_equations(&domain, &domain.points[..domain.rim_count], job)?,
         _ => Operator::new(&domain, order).normal_equations(&domain.points, job)?,
@@ -74,7 +74,7 @@ pub(crate) fn fair(
 }
 
 /// Gives back the memory of a domain, which takes milliseconds when it is large, and asks whether to stop.
-fn give_back(domain: Domain, job: &Job<'_>) -> Result<()> {
+fn give_back(domain: FairingDomain, job: &Job<'_>) -> Result<()> {
     drop(domain);
     job.ask()
 }
@@ -91,7 +91,7 @@ pub(crate) fn extend_from_rim(
 ) -> Result<Vec<Vec3>> {
     let job = solver.job();
     let around = Surroundings::default();
-    let domain = Domain::new(surface, &around, 0, Weights::Uniform, job)?;
+    let domain = FairingDomain::new(surface, &around, 0, Weights::Uniform, job)?;
     let (matrix, right_side) = membrane_equations(&domain, rim_values, job)?;
     let solution = solver.solve(matrix, &right_side)?;
     give_back(domain, job)?;
@@ -112,7 +112,7 @@ pub(crate) fn extend_with_slope(
     solver: &mut SpdSolver<'_>,
 ) -> Result<Vec<Vec3>> {
     let job = solver.job();
-    let domain = Domain::new(surface, surroundings, 1, Weights::Cotangent, job)?;
+    let domain = FairingDomain::new(surface, surroundings, 1, Weights::Cotangent, job)?;
     let mut values = vec![Vec3::zeros(); domain.vertex_count()];
     values[..domain.rim_count].copy_from_slice(rim_values);
     values[domain.patch_count..].copy_from_slice(around_values);
@@ -125,14 +125,14 @@ pub(crate) fn extend_with_slope(
 
 /// The energy of order two or three as a quadratic form, applied to sparse vectors.
 struct Operator<'a> {
-    domain: &'a Domain,
+    domain: &'a FairingDomain,
     order: Order,
     /// Whether the energy is summed over the vertex.
     is_summed: Vec<bool>,
 }
 
 impl<'a> Operator<'a> {
-    fn new(domain: &'a Domain, order: Order) -> Self {
+    fn new(domain: &'a FairingDomain, order: Order) -> Self {
         let last_level = if order == Order::Three { 1 } else { 0 };
         let is_summed = (0..domain.vertex_count())
             .map(|v| domain.levels[v] <= last_level && domain.is_complete[v])
@@ -256,7 +256,7 @@ impl<'a> Operator<'a> {
                 let row = domain.row(r);
                 let (before, behind) =
                     row.split_at(row.partition_point(|e| (e.column as usize) < r));
-                let diagonal = Entry {
+                let diagonal = Coefficient {
                     column: r as u32,
                     weight: -row.iter().map(|e| e.weight).sum::<f64>(),
                 };
@@ -277,7 +277,7 @@ impl<'a> Operator<'a> {
 
 /// Matrix and right-hand side of the membrane over the interior vertices.
 fn membrane_equations(
-    domain: &Domain,
+    domain: &FairingDomain,
     rim_values: &[Vec3],
     job: &Job<'_>,
 ) -> Result<(SymmetricMatrix, Vec<Vec3>)> {
@@ -312,11 +312,11 @@ fn membrane_equations(
 /// Sparse rows with ascending columns.
 struct Rows {
     starts: Vec<u32>,
-    entries: Vec<Entry>,
+    entries: Vec<Coefficient>,
 }
 
 impl Rows {
-    fn of(&self, row: u32) -> &[Entry] {
+    fn of(&self, row: u32) -> &[Coefficient] {
         let r = row as usize;
         &self.entries[self.starts[r] as usize..self.starts[r + 1] as usize]
     }

@@ -36,7 +36,7 @@ pub(crate) enum Weights {
 
 /// An entry of a row of the Laplacian.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Entry {
+pub(crate) struct Coefficient {
     pub(crate) column: u32,
     pub(crate) weight: f64,
 }
@@ -44,7 +44,7 @@ pub(crate) struct Entry {
 /// A patch joined to its surroundings: positions, Laplacian rows and areas.
 ///
 /// Vertices are numbered rim, interior, surroundings.
-pub(crate) struct Domain {
+pub(crate) struct FairingDomain {
     pub(crate) rim_count: usize,
     /// Number of rim and interior vertices.
     pub(crate) patch_count: usize,
@@ -53,7 +53,7 @@ pub(crate) struct Domain {
     /// 0 for rim and interior vertices, the ring for those of the surroundings.
     pub(crate) levels: Vec<u32>,
     row_starts: Vec<u32>,
-    entries: Vec<Entry>,
+    entries: Vec<Coefficient>,
     /// Area of each vertex.
     pub(crate) areas: Vec<f64>,
     /// Where the Laplacian is a quadratic form, whether negative weights count.
@@ -62,7 +62,7 @@ pub(crate) struct Domain {
     pub(crate) is_complete: Vec<bool>,
 }
 
-impl Domain {
+impl FairingDomain {
     /// Joins the patch to the rings of its surroundings below `ring_count`.
     ///
     /// # Errors
@@ -126,12 +126,12 @@ impl Domain {
     }
 
     /// Off-diagonal entries of the row of `vertex`, with ascending columns; the diagonal is minus their sum.
-    pub(crate) fn row(&self, vertex: usize) -> &[Entry] {
+    pub(crate) fn row(&self, vertex: usize) -> &[Coefficient] {
         &self.entries[self.row_starts[vertex] as usize..self.row_starts[vertex + 1] as usize]
     }
 
     /// The weight of an entry where the Laplacian is a quadratic form.
-    pub(crate) fn form_weight(&self, entry: &Entry) -> f64 {
+    pub(crate) fn form_weight(&self, entry: &Coefficient) -> f64 {
         if self.has_negative {
             entry.weight
         } else {
@@ -174,7 +174,7 @@ impl Domain {
         }
         // Taken column by column, the entries of each row come in ascending order.
         slots.copy_from_slice(&starts);
-        let zero = Entry {
+        let zero = Coefficient {
             column: 0,
             weight: 0.0,
         };
@@ -183,7 +183,7 @@ impl Domain {
             job.tick(3)?;
             for &(row, weight) in &by_column[starts[column] as usize..starts[column + 1] as usize] {
                 let slot = &mut slots[row as usize];
-                half_edges[*slot as usize] = Entry {
+                half_edges[*slot as usize] = Coefficient {
                     column: column as u32,
                     weight,
                 };
@@ -203,7 +203,7 @@ impl Domain {
                     Weights::Uniform | Weights::Umbrella => 1.0,
                     Weights::Cotangent | Weights::Voronoi => same.iter().map(|e| e.weight).sum(),
                 };
-                self.entries.push(Entry {
+                self.entries.push(Coefficient {
                     column: same[0].column,
                     weight,
                 });

@@ -1,7 +1,7 @@
 //! What fairing must do: reproduce what is flat, minimise its energy, meet the rim.
 
 use super::kharmonic::{Order, extend_from_rim, fair};
-use super::laplacian::{Domain, Weights};
+use super::laplacian::{FairingDomain, Weights};
 use crate::fixtures::{self, Arrays, Noise};
 use crate::job::{Job, UNLIMITED};
 use crate::math::Vec3;
@@ -144,7 +144,7 @@ fn a_patch_in_the_plane_stays_where_it_is() {
 }
 
 /// The energy that `order` is documented to minimise, vertex by vertex from the definition.
-fn energy(domain: &Domain, order: Order, points: &[Vec3]) -> f64 {
+fn energy(domain: &FairingDomain, order: Order, points: &[Vec3]) -> f64 {
     let count = domain.vertex_count();
     let laplacian = |v: usize, at: &dyn Fn(usize) -> Vec3| -> Vec3 {
         let terms = domain.row(v).iter();
@@ -194,7 +194,7 @@ fn the_result_has_the_least_energy() {
             for weights in WEIGHTS {
                 let out = faired(&start, &around, order, weights);
                 // The weights are those of the shape before.
-                let domain = Domain::new(
+                let domain = FairingDomain::new(
                     &start,
                     &around,
                     order as u32 - 1,
@@ -339,7 +339,7 @@ fn the_umbrella_vectors_of_the_unfolding_vanish() {
     let (start, around) = disc(&sheet, [7.0, 7.0], 3.5);
     let interior = start.rim_count..start.points.len();
     assert!(interior.len() > 20);
-    let umbrellas = |domain: &Domain, values: &[Vec3]| -> Vec<Vec3> {
+    let umbrellas = |domain: &FairingDomain, values: &[Vec3]| -> Vec<Vec3> {
         (0..domain.vertex_count())
             .map(|v| {
                 let row = domain.row(v);
@@ -361,7 +361,7 @@ fn the_umbrella_vectors_of_the_unfolding_vanish() {
             &mut SpdSolver::new(&UNLIMITED),
         )
         .unwrap();
-        let domain = Domain::new(&surface, &around, 1, weights, &Job::unlimited()).unwrap();
+        let domain = FairingDomain::new(&surface, &around, 1, weights, &Job::unlimited()).unwrap();
         let mut u = umbrellas(&domain, &domain.points);
         if order == Order::Two {
             u = umbrellas(&domain, &u);

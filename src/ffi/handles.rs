@@ -18,24 +18,24 @@ const MOST_PLACES: usize = 1 << PLACE_BITS;
 const LAST_GENERATION: u32 = (1 << GENERATION_BITS) - 1;
 
 /// The objects that C holds handles of. Every operation locks the table for as long as it takes to look at one place.
-pub(super) struct Table<T> {
+pub(super) struct HandleTable<T> {
     tag: u64,
     places: Mutex<Places<T>>,
 }
 
 struct Places<T> {
-    all: Vec<Place<T>>,
+    all: Vec<Slot<T>>,
     /// Places without an object that may be used again.
     free: Vec<u32>,
 }
 
-struct Place<T> {
+struct Slot<T> {
     generation: u32,
     /// The kind, from 1 to 15, and the object.
     object: Option<(u8, Arc<T>)>,
 }
 
-impl<T> Table<T> {
+impl<T> HandleTable<T> {
     /// An empty table. `tag` is what tells it from others; its lowest 12 bits count.
     pub(super) fn new(tag: u64) -> Self {
         Self {
@@ -54,7 +54,7 @@ impl<T> Table<T> {
         let place = match places.free.pop() {
             Some(place) => place as usize,
             None if places.all.len() < MOST_PLACES => {
-                places.all.push(Place {
+                places.all.push(Slot {
                     generation: 0,
                     object: None,
                 });
@@ -111,7 +111,7 @@ impl<T> Table<T> {
         places.all.iter().filter(|p| p.object.is_some()).count()
     }
 
-    /// Place and generation of a handle that this table may have given out.
+    /// Slot and generation of a handle that this table may have given out.
     fn parts(&self, kind: u8, handle: u64) -> Option<(usize, u32)> {
         let bits = |from: u32, count: u32| handle >> from & ((1 << count) - 1);
         let is_ours = bits(GENERATION_BITS + PLACE_BITS, TAG_BITS) == self.tag

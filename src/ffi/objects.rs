@@ -1,7 +1,7 @@
 //! What handles stand for, and the one table of them.
 
 use super::failure::{Failure, not_found};
-use super::handles::Table;
+use super::handles::HandleTable;
 use super::shared::{Refusal, Shared};
 use super::status::{
     HOLEFILL_STATUS_BUSY, HOLEFILL_STATUS_INVALID_HANDLE, HOLEFILL_STATUS_LIMIT,
@@ -104,12 +104,12 @@ impl From<MeshObject> for Object {
 }
 
 /// The only state of the library that calls share.
-pub(super) static TABLE: LazyLock<Table<Object>> = LazyLock::new(|| {
+pub(super) static TABLE: LazyLock<HandleTable<Object>> = LazyLock::new(|| {
     // The process, and where this copy of the library was loaded. Nothing but the handles depends on it. The
     // multiplication (by 2^64 over the golden ratio) brings all bits into the upper ones.
     let place = std::ptr::from_ref(&TABLE).addr() as u64;
     let mixed = (place ^ u64::from(std::process::id())).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    Table::new(mixed >> 52)
+    HandleTable::new(mixed >> 52)
 });
 
 /// Keeps an object and returns its handle.

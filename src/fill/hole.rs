@@ -12,7 +12,7 @@ use crate::patch::{HoleShape, Surroundings};
 
 /// Known triangles round a hole, and which vertices of the mesh theirs are.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Band {
+pub(crate) struct BandInMesh {
     /// Where they are, in the hole's coordinates.
     pub(crate) surroundings: Surroundings,
     /// The vertex of the mesh behind each of the points.
@@ -147,10 +147,10 @@ impl Hole {
     ///
     /// # Errors
     /// [`ErrorKind::Cancelled`] when the job is stopped.
-    pub(crate) fn band(&self, mesh: &TriMesh, reach: Reach, job: &Job<'_>) -> Result<Band> {
+    pub(crate) fn band(&self, mesh: &TriMesh, reach: Reach, job: &Job<'_>) -> Result<BandInMesh> {
         let rings = collect_rings(mesh, &self.halfedges, reach, job)?;
         job.ask()?;
-        let mut band = Band::default();
+        let mut band = BandInMesh::default();
         let mut local = Vec::with_capacity(rings.levels.len());
         for &(v, level) in &rings.levels {
             job.tick(4)?;

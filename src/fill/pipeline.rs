@@ -1,7 +1,7 @@
 //! Fills the chosen holes of a mesh: plans in parallel on the unchanged mesh, then stitches in order.
 
 use super::index::MeshIndex;
-use super::plan::{Failure, Plan, Planner, chain};
+use super::plan::{Plan, PlanFailure, Planner, chain};
 use super::progress::{ProgressCallback, Watch};
 use super::report::{FillReport, HoleReport, HoleStatus};
 use super::stitch::{Outcome, Stitcher};
@@ -114,7 +114,7 @@ pub(crate) fn thread_pool(options: &FillOptions) -> Result<rayon::ThreadPool> {
 }
 
 /// A patch or the reason why there is none, and the seconds that it took.
-pub(super) type Planned = (std::result::Result<Plan, Failure>, f64);
+pub(super) type Planned = (std::result::Result<Plan, PlanFailure>, f64);
 
 /// What filling needs besides the mesh.
 pub(super) struct Work<'a> {
@@ -149,7 +149,7 @@ impl Work<'_> {
         mesh: &TriMesh,
         index: &MeshIndex,
         holes: &[H],
-        make: impl Fn(&Planner<'_>, &H) -> std::result::Result<Plan, Failure> + Sync,
+        make: impl Fn(&Planner<'_>, &H) -> std::result::Result<Plan, PlanFailure> + Sync,
     ) -> Vec<Planned> {
         let plan = |hole: &H| {
             let start = Instant::now();
@@ -160,7 +160,7 @@ impl Work<'_> {
                 options: self.options,
                 job: &job,
             };
-            let outcome = job.ask().map_err(Failure::from);
+            let outcome = job.ask().map_err(PlanFailure::from);
             let outcome = outcome.and_then(|()| make(&planner, hole));
             self.watch.advance();
             let outcome = outcome.map_err(|failure| self.explain(failure));
@@ -199,8 +199,8 @@ impl Work<'_> {
         }
     }
 
-    fn explain(&self, failure: Failure) -> Failure {
-        Failure {
+    fn explain(&self, failure: PlanFailure) -> PlanFailure {
+        PlanFailure {
             error: self.watch.explain(failure.error),
             tried: failure.tried,
         }

@@ -52,12 +52,12 @@ impl Plan {
 
 /// Why there is no plan, and what was tried.
 #[derive(Clone)]
-pub(crate) struct Failure {
+pub(crate) struct PlanFailure {
     pub(crate) error: Error,
     pub(crate) tried: Vec<Attempt>,
 }
 
-impl From<Error> for Failure {
+impl From<Error> for PlanFailure {
     fn from(error: Error) -> Self {
         Self {
             error,
@@ -93,7 +93,7 @@ impl Planner<'_> {
         outer: &BoundaryLoop,
         islands: &[&BoundaryLoop],
         methods: &[Method],
-    ) -> std::result::Result<Plan, Failure> {
+    ) -> std::result::Result<Plan, PlanFailure> {
         let reach = methods
             .iter()
             .map(|m| (m.spec().reach)(self.options))
@@ -109,10 +109,10 @@ impl Planner<'_> {
         &self,
         hole: Hole,
         methods: &[Method],
-    ) -> std::result::Result<Plan, Failure> {
+    ) -> std::result::Result<Plan, PlanFailure> {
         let mut tried = Vec::new();
         let task = Task::new(&hole.shape, self.options, self.job);
-        let mut best: Option<(Candidate, usize)> = None;
+        let mut best: Option<(MadePatch, usize)> = None;
         let mut last_error = None;
         let mut knotted = None;
         for &method in methods {
@@ -131,7 +131,7 @@ impl Planner<'_> {
                     format!("its patch has {found} intersecting pairs of triangles")
                 }
                 Err(error) if error.kind() == ErrorKind::Cancelled => {
-                    return Err(Failure { error, tried });
+                    return Err(PlanFailure { error, tried });
                 }
                 Err(error) => {
                     let reason = error.to_string();
@@ -152,7 +152,7 @@ impl Planner<'_> {
             let error = knotted
                 .or(last_error)
                 .unwrap_or_else(|| Error::new(ErrorKind::InvalidInput, "no method was allowed"));
-            return Err(Failure { error, tried });
+            return Err(PlanFailure { error, tried });
         };
         if candidate.intersections.total() > 0 {
             tried.remove(position);
@@ -164,7 +164,7 @@ impl Planner<'_> {
         Ok(plan)
     }
 
-    fn candidate(&self, hole: &Hole, task: &Task<'_>, method: Method) -> Result<Candidate> {
+    fn candidate(&self, hole: &Hole, task: &Task<'_>, method: Method) -> Result<MadePatch> {
         let spec = method.spec();
         let surface = (spec.make)(task)?;
         let twins = check_patch(hole, &surface, spec.farthest, self.job)?;
@@ -180,7 +180,7 @@ impl Planner<'_> {
             twins: &twins,
         };
         let intersections = self.index.intersections(self.mesh, patch, self.job)?;
-        Ok(Candidate {
+        Ok(MadePatch {
             method,
             surface,
             twins,
@@ -192,10 +192,10 @@ impl Planner<'_> {
     fn finish(
         &self,
         hole: Hole,
-        candidate: Candidate,
+        candidate: MadePatch,
         tried: Vec<Attempt>,
-    ) -> std::result::Result<Plan, Failure> {
-        let Candidate {
+    ) -> std::result::Result<Plan, PlanFailure> {
+        let MadePatch {
             method,
             surface,
             twins,
@@ -212,7 +212,7 @@ impl Planner<'_> {
         };
         let attributes = match task.carry() {
             Ok(attributes) => attributes,
-            Err(error) => return Err(Failure { error, tried }),
+            Err(error) => return Err(PlanFailure { error, tried }),
         };
         let corners = |t: &[u32; 3]| t.map(|v| surface.points[v as usize]);
         let min_angle = surface
@@ -235,7 +235,7 @@ impl Planner<'_> {
     }
 }
 
-struct Candidate {
+struct MadePatch {
     method: Method,
     surface: PatchSurface,
     twins: Vec<u32>,

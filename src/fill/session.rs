@@ -6,7 +6,7 @@ use super::pipeline::{
     HoleLoops, Planned, Work, blank_report, check_attribute_names, group_holes, thread_pool,
     unfillable_reason,
 };
-use super::plan::{Failure, Plan, chain};
+use super::plan::{Plan, PlanFailure, chain};
 use super::polyline;
 use super::progress::{ProgressCallback, Watch};
 use super::report::{FillReport, HoleReport};
@@ -340,7 +340,7 @@ impl FillSession {
             };
             let planned = match (index, &self.polyline) {
                 (Err(error), _) => {
-                    let failure = Failure::from(watch.explain(error));
+                    let failure = PlanFailure::from(watch.explain(error));
                     vec![(Err(failure), 0.0); holes.len()]
                 }
                 (Ok(index), None) => work.plan(&self.mesh, index, &self.boundary().loops, &holes),

@@ -3,7 +3,7 @@
 
 use super::index::MeshIndex;
 use super::pipeline::HoleLoops;
-use super::plan::{Failure, Plan, Planner, chain};
+use super::plan::{Plan, PlanFailure, Planner, chain};
 use super::report::{Attempt, HoleReport, HoleStatus};
 use super::verify::check_against_mesh;
 use crate::error::{Error, ErrorKind};
@@ -100,7 +100,7 @@ impl<'a> Stitcher<'a> {
         &mut self,
         index: usize,
         hole: &HoleLoops<'_>,
-        planned: Result<Plan, Failure>,
+        planned: Result<Plan, PlanFailure>,
     ) -> Outcome {
         let mut plan = match planned {
             Ok(plan) => plan,
@@ -186,7 +186,7 @@ impl<'a> Stitcher<'a> {
         plan: &Plan,
         error: &Error,
         methods: &[Method],
-    ) -> Result<(Plan, Vec<[u32; 3]>, usize), Failure> {
+    ) -> Result<(Plan, Vec<[u32; 3]>, usize), PlanFailure> {
         let planner = Planner {
             mesh: self.mesh,
             index: self.index,
@@ -201,7 +201,7 @@ impl<'a> Stitcher<'a> {
         let outcome = planner.plan(hole.outer, &hole.islands, methods);
         let mut other = outcome.map_err(|mut failure| {
             tried.append(&mut failure.tried);
-            Failure {
+            PlanFailure {
                 error: failure.error,
                 tried: std::mem::take(&mut tried),
             }
@@ -210,7 +210,7 @@ impl<'a> Stitcher<'a> {
         other.tried = tried;
         let triangles = other.triangles(self.mesh.positions().len());
         match self.conflict(&other, &triangles) {
-            Some(error) => Err(Failure {
+            Some(error) => Err(PlanFailure {
                 error,
                 tried: other.tried,
             }),

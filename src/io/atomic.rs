@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const BUFFER_BYTES: usize = 1 << 20;
 
 /// Where a file is written.
-enum Place {
+enum Destination {
     /// A device or pipe, which is written to in place.
     Device(PathBuf),
     /// A file that is made or replaced.
@@ -20,7 +20,7 @@ enum Place {
     },
 }
 
-impl Place {
+impl Destination {
     fn of(path: &Path) -> Result<Self> {
         let target = resolved(path);
         let permissions = match fs::metadata(&target) {
@@ -51,7 +51,7 @@ impl Place {
 /// # Errors
 /// [`ErrorKind::Io`] as [`replace`].
 pub fn check_destination(path: &Path) -> Result<()> {
-    if let Place::File { folder, .. } = Place::of(path)? {
+    if let Destination::File { folder, .. } = Destination::of(path)? {
         tempfile::tempfile_in(&folder).map_err(|error| failed(path, &error.to_string()))?;
     }
     Ok(())
@@ -82,12 +82,12 @@ pub fn replace(
     write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
 ) -> Result<()> {
     let io_error = |error: io::Error| failed(path, &error.to_string());
-    let (target, folder, permissions) = match Place::of(path)? {
-        Place::Device(target) => {
+    let (target, folder, permissions) = match Destination::of(path)? {
+        Destination::Device(target) => {
             let device = File::options().write(true).open(&target);
             return write_buffered(&device.map_err(io_error)?, write).map_err(io_error);
         }
-        Place::File {
+        Destination::File {
             target,
             folder,
             permissions,

@@ -12,7 +12,7 @@ const COMMENT: Option<u8> = Some(b'#');
 const NORMAL: [&str; 3] = ["nx", "ny", "nz"];
 const COLOR: [&str; 4] = ["red", "green", "blue", "alpha"];
 
-struct Header {
+struct OffHeader {
     has_normals: bool,
     vertices: usize,
     faces: usize,
@@ -41,7 +41,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<MeshData> {
 }
 
 /// The keyword and the counts, which may follow it on its line, even without a space.
-fn read_header(lines: &mut Lines) -> Result<Header> {
+fn read_header(lines: &mut Lines) -> Result<OffHeader> {
     let line = lines
         .next_filled(COMMENT)
         .ok_or_else(|| lines.end_error("there is no header"))?;
@@ -83,14 +83,14 @@ fn read_header(lines: &mut Lines) -> Result<Header> {
             lines.rest().len()
         )));
     }
-    Ok(Header {
+    Ok(OffHeader {
         has_normals,
         vertices,
         faces,
     })
 }
 
-fn read_vertices(lines: &mut Lines, header: &Header) -> Result<MeshData> {
+fn read_vertices(lines: &mut Lines, header: &OffHeader) -> Result<MeshData> {
     let mut positions = Vec::with_capacity(header.vertices);
     let normal_count = if header.has_normals { NORMAL.len() } else { 0 };
     let mut columns: Vec<Vec<f64>> = vec![Vec::new(); normal_count];

@@ -112,12 +112,12 @@ impl Iterator for Marks {
 
 /// The affine map from mesh coordinates to the cube of side two round the origin.
 #[derive(Clone, Copy, Debug)]
-struct Frame {
+struct GridFrame {
     origin: Vec3,
     scale: f64,
 }
 
-impl Frame {
+impl GridFrame {
     fn fit(bounds: &Aabb) -> Self {
         let half = bounds.hi * 0.5 - bounds.lo * 0.5;
         let extent = half.max();
@@ -156,7 +156,7 @@ fn round_down(x: f64) -> f32 {
 /// Finds boxes by box and by distance.
 #[derive(Clone, Debug)]
 pub(crate) struct BoxTree {
-    frame: Frame,
+    frame: GridFrame,
     /// Ids of the boxes along the Morton curve.
     order: Vec<u32>,
     /// The boxes of `order` in groups of [`FANOUT`], then the boxes of these groups, and so on up to one
@@ -193,7 +193,7 @@ impl BoxTree {
             .map(&box_of)
             .reduce(Aabb::empty, |a, b| a.union(&b));
         job.ask()?;
-        let frame = Frame::fit(&bounds);
+        let frame = GridFrame::fit(&bounds);
 
         // Code and id share one word, so the order is total and a box moves as eight bytes.
         let id_bits = usize::BITS - count.leading_zeros();

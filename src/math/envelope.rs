@@ -27,7 +27,7 @@ pub(super) struct Envelope {
 impl Envelope {
     /// Numbers the unknowns level by level from one at the end of the longest way that is found.
     pub(super) fn new(matrix: &SymmetricMatrix) -> Self {
-        let neighbours = Neighbours::new(matrix);
+        let neighbours = RowNeighbors::new(matrix);
         let size = matrix.size();
         let mut order = Vec::with_capacity(size);
         let mut is_placed = vec![false; size];
@@ -102,7 +102,7 @@ impl Envelope {
         Ok(Some(solution))
     }
 
-    fn scatter(&self, matrix: &SymmetricMatrix, shift: f64) -> Rows<'_> {
+    fn scatter(&self, matrix: &SymmetricMatrix, shift: f64) -> EnvelopeRows<'_> {
         let mut starts = Vec::with_capacity(self.first.len() + 1);
         let mut total = 0;
         for (at, &first) in self.first.iter().enumerate() {
@@ -121,7 +121,7 @@ impl Envelope {
         for end in &starts[1..] {
             values[end - 1] += shift;
         }
-        Rows {
+        EnvelopeRows {
             first: &self.first,
             starts,
             values,
@@ -130,12 +130,12 @@ impl Envelope {
 }
 
 /// The neighbours of each unknown in the graph of the matrix.
-struct Neighbours {
+struct RowNeighbors {
     starts: Vec<u32>,
     list: Vec<u32>,
 }
 
-impl Neighbours {
+impl RowNeighbors {
     fn new(matrix: &SymmetricMatrix) -> Self {
         let size = matrix.size();
         let pairs = || {
@@ -188,13 +188,13 @@ impl Neighbours {
 }
 
 /// The rows of the lower triangle, each from its first entry to the diagonal; then those of the factor.
-struct Rows<'a> {
+struct EnvelopeRows<'a> {
     first: &'a [u32],
     starts: Vec<usize>,
     values: Vec<f64>,
 }
 
-impl Rows<'_> {
+impl EnvelopeRows<'_> {
     /// Replaces the matrix by its factor; false when it is not positive definite.
     fn factorise(&mut self, job: &Job<'_>) -> Result<bool> {
         for i in 0..self.first.len() {

@@ -149,14 +149,14 @@ impl<T: Choice> Value for T {
 }
 
 /// Sets an option from a text; false when the text is not allowed.
-type Reader<O> = dyn Fn(&mut O, &str) -> bool + Send + Sync;
+type Setter<O> = dyn Fn(&mut O, &str) -> bool + Send + Sync;
 
 /// An option of the options `O` that can be set by its name.
 pub struct Entry<O> {
     name: String,
     help: &'static str,
     allowed: String,
-    read: Box<Reader<O>>,
+    read: Box<Setter<O>>,
     write: Box<dyn Fn(&O) -> String + Send + Sync>,
     is_within: Box<dyn Fn(&O) -> bool + Send + Sync>,
 }

@@ -115,7 +115,7 @@ pub(crate) fn count(
     };
     let corners: Vec<[Vec3; 3]> = patch.triangles.iter().map(corners_of).collect();
     let boxes: Vec<Aabb> = corners.iter().map(grown_box).collect();
-    let task = Task {
+    let task = TriangleSearch {
         mesh,
         faces,
         triangles: patch.triangles,
@@ -141,7 +141,7 @@ fn grown_box(triangle: &[Vec3; 3]) -> Aabb {
     }
 }
 
-struct Task<'a> {
+struct TriangleSearch<'a> {
     mesh: Surface<'a>,
     faces: &'a FaceIndex,
     /// Patch triangles with their corners and boxes.
@@ -150,7 +150,7 @@ struct Task<'a> {
     boxes: &'a [Aabb],
 }
 
-impl Task<'_> {
+impl TriangleSearch<'_> {
     /// The planes of triangle `i`, kept in `known`.
     fn separator<'s>(&self, i: usize, known: &'s mut [Option<Separator>]) -> &'s Separator {
         known[i].get_or_insert_with(|| Separator::new(self.triangles[i], self.corners[i]))

@@ -13,11 +13,11 @@
 //!
 //! Complexity: O(n k) for n points with k neighbours, O(n log n) to sort.
 
-use super::cloud::{Cloud, Neighbours, for_all};
+use super::cloud::{Cloud, NearestPoints, for_all};
 use super::gaps;
 use super::reach::{RIM_SHARE, circumradius, limits};
 use super::star::Star;
-use super::surface::{Surface, from_lowest, rotations};
+use super::surface::{GrowingSurface, from_lowest, rotations};
 use super::tangent::Tangent;
 use crate::error::Result;
 use crate::job::Job;
@@ -31,7 +31,7 @@ const MOST_NEIGHBOURS: usize = 200;
 /// Chooses the triangles.
 pub(super) struct Assembler<'a> {
     pub(super) cloud: &'a Cloud,
-    pub(super) neighbours: &'a Neighbours,
+    pub(super) neighbours: &'a NearestPoints,
     /// `None` for points without a normal.
     pub(super) tangents: &'a [Option<Tangent>],
     /// The largest radius of a triangle's circle, if the caller gave it, in the cloud's unit.
@@ -48,13 +48,13 @@ pub(super) struct Assembled {
 
 /// A triangle that points chose, from its lowest index on.
 #[derive(Clone, Copy, PartialEq)]
-struct Candidate {
+struct CandidateTriangle {
     votes: u8,
     radius: f64,
     corners: [u32; 3],
 }
 
-impl Candidate {
+impl CandidateTriangle {
     fn order(&self, other: &Self) -> std::cmp::Ordering {
         let by_votes = other.votes.cmp(&self.votes);
         let by_radius = || self.radius.total_cmp(&other.radius);
@@ -78,7 +78,7 @@ impl Assembler<'_> {
             self.choice(v, &near[v as usize], limits[v as usize])
         })?;
         let candidates = self.candidates(&stars, &limits);
-        let mut surface = Surface::new(self.cloud, self.tangents);
+        let mut surface = GrowingSurface::new(self.cloud, self.tangents);
         for candidate in candidates {
             self.job.tick(10)?;
             surface.add(candidate.corners);
@@ -162,27 +162,27 @@ impl Assembler<'_> {
     }
 
     /// The triangles of all stars in the order in which they are tried.
-    fn candidates(&self, stars: &[Vec<[u32; 2]>], limits: &[f64]) -> Vec<Candidate> {
+    fn candidates(&self, stars: &[Vec<[u32; 2]>], limits: &[f64]) -> Vec<CandidateTriangle> {
         let mut chosen: Vec<[u32; 3]> = (0..)
             .zip(stars)
             .flat_map(|(v, sectors)| sectors.iter().map(move |&[a, b]| from_lowest([v, a, b])))
             .collect();
         chosen.par_sort_unstable();
-        let mut candidates: Vec<Candidate> = chosen
+        let mut candidates: Vec<CandidateTriangle> = chosen
             .chunk_by(|a, b| a == b)
-            .map(|same| Candidate {
+            .map(|same| CandidateTriangle {
                 votes: same.len().min(3) as u8,
                 radius: self.radius(same[0]),
                 corners: same[0],
             })
             .filter(|c| c.radius <= largest_limit(limits, c.corners))
             .collect();
-        candidates.par_sort_unstable_by(Candidate::order);
+        candidates.par_sort_unstable_by(CandidateTriangle::order);
         candidates
     }
 
     /// Closes what the stars left open as long as triangles stay within the limit.
-    fn close_gaps(&self, surface: &mut Surface, limits: &[f64]) -> Result<()> {
+    fn close_gaps(&self, surface: &mut GrowingSurface, limits: &[f64]) -> Result<()> {
         let mut queue = BinaryHeap::new();
         for side in surface.boundary() {
             self.queue_triangles(surface, limits, side, &mut queue);
@@ -202,7 +202,7 @@ impl Assembler<'_> {
     }
 
     /// Leaves every point one fan, and closes the holes of few edges within the limit.
-    fn close_small_holes(&self, surface: &mut Surface, limits: &[f64]) {
+    fn close_small_holes(&self, surface: &mut GrowingSurface, limits: &[f64]) {
         surface.separate_fans();
         let normal = |v: u32| self.tangents[v as usize].as_ref().map(|t| t.normal);
         gaps::close_small_holes(surface, &self.cloud.points, normal, |t| {
@@ -213,7 +213,7 @@ impl Assembler<'_> {
     /// Queues the triangles that fit on the open side of a -> b.
     fn queue_triangles(
         &self,
-        surface: &Surface,
+        surface: &GrowingSurface,
         limits: &[f64],
         [a, b]: [u32; 2],
         queue: &mut BinaryHeap<Reverse<Queued>>,

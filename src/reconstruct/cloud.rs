@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
-type Entry = GeomWithData<[f64; 3], u32>;
+type IndexedPoint = GeomWithData<[f64; 3], u32>;
 
 /// Points that one thread takes at a time.
 const GRAIN: usize = 256;
@@ -25,7 +25,7 @@ pub(super) struct Cloud {
     pub(super) sources: Vec<u32>,
     /// What a length in the caller's units is multiplied by.
     pub(super) scale: f64,
-    tree: RTree<Entry>,
+    tree: RTree<IndexedPoint>,
 }
 
 impl Cloud {
@@ -61,7 +61,7 @@ impl Cloud {
         let entries = points
             .iter()
             .zip(0..)
-            .map(|(p, v)| Entry::new((*p).into(), v));
+            .map(|(p, v)| IndexedPoint::new((*p).into(), v));
         Ok(Self {
             tree: RTree::bulk_load(entries.collect()),
             points,
@@ -96,10 +96,10 @@ impl Cloud {
     ///
     /// # Errors
     /// [`ErrorKind::Cancelled`] when the job is stopped.
-    pub(super) fn all_nearest(&self, count: usize, job: &Job<'_>) -> Result<Neighbours> {
+    pub(super) fn all_nearest(&self, count: usize, job: &Job<'_>) -> Result<NearestPoints> {
         let count = count.min(self.len().saturating_sub(1));
         let lists = for_all(self.len(), job, |v| self.nearest(v, count))?;
-        Ok(Neighbours {
+        Ok(NearestPoints {
             count,
             flat: lists.concat(),
         })
@@ -114,12 +114,12 @@ impl Cloud {
 }
 
 /// Lists of equal length, one for each point.
-pub(super) struct Neighbours {
+pub(super) struct NearestPoints {
     count: usize,
     flat: Vec<u32>,
 }
 
-impl Neighbours {
+impl NearestPoints {
     /// The neighbours of `v`, nearest first.
     pub(super) fn of(&self, v: u32) -> &[u32] {
         &self.flat[v as usize * self.count..][..self.count]

@@ -7,7 +7,7 @@
 //! Complexity: linear in the boundary.
 
 use super::reach::circumradius;
-use super::surface::{Surface, rotations};
+use super::surface::{GrowingSurface, rotations};
 use crate::math::{Vec3, cross_normal};
 
 /// Most edges of a hole that is closed: as many as a hole as large as the limit has in a regular mesh. Loops of
@@ -18,7 +18,7 @@ const MOST_EDGES: usize = 12;
 /// their corners or make an acute angle with the normals of all triangles beside them: estimated normals may be wrong
 /// at folds. All of a hole or nothing. Every point must have one fan.
 pub(super) fn close_small_holes(
-    surface: &mut Surface,
+    surface: &mut GrowingSurface,
     points: &[Vec3],
     normal: impl Fn(u32) -> Option<Vec3>,
     limit: impl Fn([u32; 3]) -> f64,
@@ -47,7 +47,7 @@ pub(super) fn close_small_holes(
 }
 
 /// The boundary loops of few edges, as the triangles beside them run.
-fn small_loops(surface: &Surface) -> Vec<Vec<u32>> {
+fn small_loops(surface: &GrowingSurface) -> Vec<Vec<u32>> {
     let sides = surface.boundary();
     let next = |v: u32| {
         let at = sides.partition_point(|side| side[0] < v);
@@ -77,9 +77,9 @@ fn small_loops(surface: &Surface) -> Vec<Vec<u32>> {
 /// # Errors
 /// The triangles that were added before none was left that fits.
 fn clip_ears(
-    surface: &mut Surface,
+    surface: &mut GrowingSurface,
     hole: &[u32],
-    cost: impl Fn(&Surface, [u32; 3]) -> Option<f64>,
+    cost: impl Fn(&GrowingSurface, [u32; 3]) -> Option<f64>,
 ) -> Result<(), Vec<[u32; 3]>> {
     let mut rest = hole.to_vec();
     let mut added = Vec::new();

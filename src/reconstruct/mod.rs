@@ -45,7 +45,7 @@ use tangent::Tangent;
 const FEWEST_POINTS: usize = 4;
 /// Spread across over spread along below which all points together count as a line.
 const LINE_SPREAD: f64 = 1e-9;
-/// Neighbours that a star is made from, by default; their number and range in [`PointOptions::neighbours`].
+/// NearestPoints that a star is made from, by default; their number and range in [`PointOptions::neighbours`].
 const NEIGHBOURS: usize = 24;
 
 /// Points to make a mesh from.

@@ -7,13 +7,13 @@
 //!
 //! Complexity: O(k) per point for k neighbours. Across a crease the normal is a mean of both sides.
 
-use super::cloud::{Cloud, Neighbours, for_all};
+use super::cloud::{Cloud, NearestPoints, for_all};
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::Vec3;
 use nalgebra::{Matrix3, SymmetricEigen};
 
-/// Neighbours that determine a normal.
+/// NearestPoints that determine a normal.
 pub(super) const NORMAL_NEIGHBOURS: usize = 12;
 /// A neighbourhood counts as a line where its spread across is less than this share of that along it.
 const LINE_SPREAD: f64 = 0.15;
@@ -26,7 +26,7 @@ const WIDER: [usize; 2] = [2, 4];
 /// `Cancelled` when the job is stopped.
 pub(super) fn estimate(
     cloud: &Cloud,
-    neighbours: &Neighbours,
+    neighbours: &NearestPoints,
     known: &[Option<Vec3>],
     job: &Job<'_>,
 ) -> Result<Vec<Vec3>> {

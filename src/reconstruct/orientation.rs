@@ -11,13 +11,13 @@
 //!
 //! Complexity: O(n k log n) for k neighbours. Where surfaces nearly touch, the sign can be wrong.
 
-use super::cloud::{Cloud, Neighbours};
+use super::cloud::{Cloud, NearestPoints};
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::Vec3;
 use rayon::prelude::*;
 
-/// Neighbours that a sign is passed on to.
+/// NearestPoints that a sign is passed on to.
 const SIGN_NEIGHBOURS: usize = 10;
 
 /// Turns the normals that are not `known` so that neighbours agree. Known ones keep their sign and decide
@@ -27,7 +27,7 @@ const SIGN_NEIGHBOURS: usize = 10;
 /// `Cancelled` when the job is stopped.
 pub(super) fn agree(
     cloud: &Cloud,
-    neighbours: &Neighbours,
+    neighbours: &NearestPoints,
     normals: &mut [Vec3],
     known: &[Option<Vec3>],
     job: &Job<'_>,
@@ -72,7 +72,7 @@ pub(super) fn agree(
     Ok(())
 }
 
-fn listed(neighbours: &Neighbours, v: u32, w: u32) -> bool {
+fn listed(neighbours: &NearestPoints, v: u32, w: u32) -> bool {
     neighbours
         .of(v)
         .iter()

@@ -12,7 +12,7 @@
 //!
 //! Complexity: O(k) per point for k neighbours.
 
-use super::cloud::{Cloud, Neighbours, for_all};
+use super::cloud::{Cloud, NearestPoints, for_all};
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::Vec3;
@@ -45,7 +45,7 @@ pub(super) fn circumradius([a, b, c]: [Vec3; 3]) -> f64 {
 /// `Cancelled` when the job is stopped.
 pub(super) fn limits(
     cloud: &Cloud,
-    neighbours: &Neighbours,
+    neighbours: &NearestPoints,
     radii: &[Vec<f64>],
     job: &Job<'_>,
 ) -> Result<Vec<f64>> {

@@ -10,13 +10,13 @@
 //!
 //! Complexity: O(k d) for k neighbours and d Delaunay neighbours.
 
-use super::tangent::{Place, Tangent, in_circle, is_between, turn};
+use super::tangent::{Tangent, TangentPlace, in_circle, is_between, turn};
 use crate::math::Vec3;
 
 /// The Delaunay neighbours of a point in its tangent plane, counter-clockwise.
 pub(super) struct Star {
     centre: u32,
-    ring: Vec<(u32, Place)>,
+    ring: Vec<(u32, TangentPlace)>,
 }
 
 impl Star {
@@ -58,7 +58,7 @@ impl Star {
         self.ring.len() >= 3 && self.sectors().count() == self.ring.len()
     }
 
-    fn insert(&mut self, index: u32, place: Place) {
+    fn insert(&mut self, index: u32, place: TangentPlace) {
         let Some(at) = self.slot(place) else {
             return;
         };
@@ -76,8 +76,9 @@ impl Star {
     }
 
     /// Where `place` belongs in the ring; `None` behind a neighbour in the same direction.
-    fn slot(&self, place: Place) -> Option<usize> {
-        let is_behind = |p: Place| turn(p, place) == 0.0 && p.x * place.x + p.y * place.y > 0.0;
+    fn slot(&self, place: TangentPlace) -> Option<usize> {
+        let is_behind =
+            |p: TangentPlace| turn(p, place) == 0.0 && p.x * place.x + p.y * place.y > 0.0;
         if self.ring.iter().any(|&(_, p)| is_behind(p)) {
             return None;
         }
@@ -98,7 +99,12 @@ impl Star {
     }
 
     /// Whether `x` is a Delaunay neighbour of the centre although `a` and `b` are, on either side of it.
-    fn prefers(&self, x: (u32, Place), a: (u32, Place), b: (u32, Place)) -> bool {
+    fn prefers(
+        &self,
+        x: (u32, TangentPlace),
+        a: (u32, TangentPlace),
+        b: (u32, TangentPlace),
+    ) -> bool {
         let inside = in_circle(a.1, b.1, x.1);
         if inside == 0.0 {
             // The diagonal from the lowest index.

@@ -8,18 +8,18 @@
 //! Complexity: O(d^2) per triangle for d triangles at a point.
 
 use super::cloud::Cloud;
-use super::tangent::{Place, Tangent, sectors_overlap, turn};
+use super::tangent::{Tangent, TangentPlace, sectors_overlap, turn};
 use std::collections::{BTreeSet, BinaryHeap};
 
 /// Triangles that form an oriented surface.
-pub(super) struct Surface<'a> {
+pub(super) struct GrowingSurface<'a> {
     cloud: &'a Cloud,
     tangents: &'a [Option<Tangent>],
     /// Of each point: the opposite sides of its triangles, in their direction.
     arcs: Vec<Vec<[u32; 2]>>,
 }
 
-impl<'a> Surface<'a> {
+impl<'a> GrowingSurface<'a> {
     /// No triangles. A point without a tangent plane never gets one.
     pub(super) fn new(cloud: &'a Cloud, tangents: &'a [Option<Tangent>]) -> Self {
         Self {
@@ -90,7 +90,7 @@ impl<'a> Surface<'a> {
         false
     }
 
-    fn sector(&self, p: u32, ends: [u32; 2]) -> Option<[Place; 2]> {
+    fn sector(&self, p: u32, ends: [u32; 2]) -> Option<[TangentPlace; 2]> {
         let tangent = self.tangents[p as usize].as_ref()?;
         let place = |v: u32| tangent.place(&self.cloud.points[v as usize]);
         Some([place(ends[0])?, place(ends[1])?])
@@ -258,7 +258,7 @@ fn fans(arcs: &[[u32; 2]]) -> Vec<Vec<[u32; 2]>> {
     let is_start = |arc: &[u32; 2]| arcs.iter().all(|other| other[1] != arc[0]);
     let starts: Vec<[u32; 2]> = arcs.iter().copied().filter(is_start).collect();
     if starts.is_empty() && !arcs.is_empty() {
-        // Surrounded: `Surface::add` lets no second circle in.
+        // Surrounded: `GrowingSurface::add` lets no second circle in.
         return vec![arcs.to_vec()];
     }
     for start in starts {

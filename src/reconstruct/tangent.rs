@@ -13,9 +13,9 @@ use robust::Coord;
 const STEEPEST: f64 = 1.732;
 
 /// A place in a tangent plane; the point that the plane belongs to is the origin.
-pub(super) type Place = Coord<f64>;
+pub(super) type TangentPlace = Coord<f64>;
 
-pub(super) const ORIGIN: Place = Coord { x: 0.0, y: 0.0 };
+pub(super) const ORIGIN: TangentPlace = Coord { x: 0.0, y: 0.0 };
 
 /// An orthonormal frame at a point.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +40,7 @@ impl Tangent {
     }
 
     /// Where `point` comes to lie; `None` when it lies too steeply above or below the plane.
-    pub(super) fn place(&self, point: &Vec3) -> Option<Place> {
+    pub(super) fn place(&self, point: &Vec3) -> Option<TangentPlace> {
         let d = point - self.origin;
         let (x, y, height) = (d.dot(&self.u), d.dot(&self.v), d.dot(&self.normal));
         let flat = x.hypot(y);
@@ -48,7 +48,7 @@ impl Tangent {
             return None;
         }
         let stretch = flat.hypot(height) / flat;
-        Some(Place {
+        Some(TangentPlace {
             x: x * stretch,
             y: y * stretch,
         })
@@ -56,23 +56,24 @@ impl Tangent {
 }
 
 /// Positive when the turn from `a` to `b` round the origin is to the left and less than half a turn.
-pub(super) fn turn(a: Place, b: Place) -> f64 {
+pub(super) fn turn(a: TangentPlace, b: TangentPlace) -> f64 {
     robust::orient2d(ORIGIN, a, b)
 }
 
 /// Positive when `d` lies inside the circle through the origin, `a` and `b`, which turn left.
-pub(super) fn in_circle(a: Place, b: Place, d: Place) -> f64 {
+pub(super) fn in_circle(a: TangentPlace, b: TangentPlace, d: TangentPlace) -> f64 {
     robust::incircle(ORIGIN, a, b, d)
 }
 
 /// Whether the direction of `x` lies strictly between those of `a` and `b`, which turn left.
-pub(super) fn is_between(a: Place, x: Place, b: Place) -> bool {
+pub(super) fn is_between(a: TangentPlace, x: TangentPlace, b: TangentPlace) -> bool {
     turn(a, x) > 0.0 && turn(x, b) > 0.0
 }
 
 /// Whether two open sectors, each of less than half a turn to the left, overlap.
-pub(super) fn sectors_overlap([a, b]: [Place; 2], [c, d]: [Place; 2]) -> bool {
-    let is_same_direction = |p: Place, q: Place| turn(p, q) == 0.0 && p.x * q.x + p.y * q.y > 0.0;
+pub(super) fn sectors_overlap([a, b]: [TangentPlace; 2], [c, d]: [TangentPlace; 2]) -> bool {
+    let is_same_direction =
+        |p: TangentPlace, q: TangentPlace| turn(p, q) == 0.0 && p.x * q.x + p.y * q.y > 0.0;
     is_between(a, c, b)
         || is_between(a, d, b)
         || is_between(c, a, d)

@@ -9,11 +9,11 @@
 //! `O(1)` per inserted vertex. Not guaranteed: distances run along patch edges, so they exceed
 //! straight ones by up to a sixth.
 
-use super::connectivity::{Connectivity, prev};
 use crate::error::{Error, ErrorKind, Result};
 use crate::job::Job;
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
+use crate::patch::mesh::{PatchMesh, prev};
 use std::collections::VecDeque;
 
 /// Rims up to this many edges are filled at uniform density, with at most some 11,000 triangles.
@@ -69,7 +69,7 @@ pub(crate) fn rim_sizes(surface: &PatchSurface, mesh_edge_lengths: &[f64]) -> Re
 
 /// Mean length of the rim edges at each rim vertex.
 fn mean_rim_edges(surface: &PatchSurface) -> Result<Vec<f64>> {
-    let mesh = Connectivity::build(
+    let mesh = PatchMesh::new(
         surface.triangles.clone(),
         surface.points.len(),
         surface.rim_count,
@@ -107,7 +107,7 @@ impl SizeField {
     /// `InvalidInput` unless there is one positive, finite size for each vertex or for each rim
     /// vertex, and the grading is finite and not negative; `Cancelled` when the job is stopped.
     pub(super) fn new(
-        mesh: &Connectivity,
+        mesh: &PatchMesh,
         points: &[Vec3],
         given: &[f64],
         grading: f64,
@@ -218,7 +218,7 @@ impl SizeField {
 /// For each vertex the nearest rim vertex and the distance to it along edges; vertices without
 /// triangles count as the rim's first.
 fn distances_from_rim(
-    mesh: &Connectivity,
+    mesh: &PatchMesh,
     points: &[Vec3],
     job: &Job<'_>,
 ) -> Result<(Vec<u32>, Vec<f64>)> {
@@ -317,7 +317,7 @@ mod tests {
     #[test]
     fn sizes_that_do_not_fit_the_patch_are_refused() {
         let surface = fan_patch(disc_rim(5));
-        let mesh = Connectivity::build(surface.triangles, 5, 5).unwrap();
+        let mesh = PatchMesh::new(surface.triangles, 5, 5).unwrap();
         let bad = |sizes: &[f64], grading| {
             SizeField::new(&mesh, &surface.points, sizes, grading, &Job::unlimited()).is_err()
         };
@@ -329,7 +329,7 @@ mod tests {
     #[test]
     fn a_midpoint_averages_its_ends_and_grows_with_the_distance_from_the_rim() {
         let surface = fan_patch(disc_rim(4));
-        let mesh = Connectivity::build(surface.triangles, 4, 4).unwrap();
+        let mesh = PatchMesh::new(surface.triangles, 4, 4).unwrap();
         let given = [1.0, 2.0, 3.0, 4.0];
         for (grading, expected) in [(0.0, 2.0), (0.5, 2.0 + 0.5 * 0.5_f64.sqrt())] {
             let mut sizes =
@@ -349,7 +349,7 @@ mod tests {
         let mut points = disc_rim(6);
         points.push(points[2] * 0.9);
         let triangles = (0..6).map(|i| [6, i, (i + 1) % 6]).collect();
-        let mesh = Connectivity::build(triangles, 7, 6).unwrap();
+        let mesh = PatchMesh::new(triangles, 7, 6).unwrap();
         let given = [1.0, 1.0, 7.0, 1.0, 1.0, 1.0];
         let sizes = SizeField::new(&mesh, &points, &given, 0.5, &Job::unlimited()).unwrap();
         assert!(

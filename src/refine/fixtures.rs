@@ -1,12 +1,12 @@
 //! Rims and first triangulations that the tests of this module share.
 
-use super::connectivity::Connectivity;
 use super::density::{grading, rim_sizes};
 use super::flip::Blocked;
 use super::isotropic::{RefineOptions, RefineReport, refine};
 use crate::job::UNLIMITED;
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
+use crate::patch::mesh::PatchMesh;
 use std::f64::consts::TAU;
 
 /// `n` points on the circle whose chords have length one.
@@ -74,9 +74,9 @@ pub(super) fn strip_patch(rails: &[(Vec3, Vec3)]) -> PatchSurface {
 }
 
 /// The connectivity of a patch.
-pub(super) fn connect(surface: &PatchSurface) -> Connectivity {
+pub(super) fn connect(surface: &PatchSurface) -> PatchMesh {
     let triangles = surface.triangles.clone();
-    Connectivity::build(triangles, surface.points.len(), surface.rim_count).unwrap()
+    PatchMesh::new(triangles, surface.points.len(), surface.rim_count).unwrap()
 }
 
 /// Refines at the rim's density and checks all that holds for any input.

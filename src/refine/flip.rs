@@ -10,10 +10,10 @@
 //! Delaunay wherever no veto holds; on a curved patch a flip changes the surface, so nothing
 //! guarantees that the flips end by themselves. Each call therefore has a flip budget.
 
-use super::connectivity::{Connectivity, Halfedge, prev};
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
+use crate::patch::mesh::{Halfedge, PatchMesh, prev};
 
 /// Opposite angles count as more than π when the sine of their sum is below minus this. Cocircular
 /// corners, as in any regular grid, give rounding noise of about 1e-15 that must not cause flips.
@@ -53,7 +53,7 @@ impl<'a> Flipper<'a> {
     /// `Cancelled` when the job is stopped.
     pub(super) fn restore(
         &mut self,
-        mesh: &mut Connectivity,
+        mesh: &mut PatchMesh,
         points: &[Vec3],
         edges: impl ExactSizeIterator<Item = Halfedge>,
     ) -> Result<usize> {
@@ -66,11 +66,7 @@ impl<'a> Flipper<'a> {
     }
 
     /// [`Self::restore`] over all edges of the patch.
-    pub(super) fn restore_all(
-        &mut self,
-        mesh: &mut Connectivity,
-        points: &[Vec3],
-    ) -> Result<usize> {
+    pub(super) fn restore_all(&mut self, mesh: &mut PatchMesh, points: &[Vec3]) -> Result<usize> {
         let mut budget = FLIPS_PER_EDGE * mesh.halfedge_count() as usize;
         let granted = budget;
         for t in 0..mesh.triangles().len() {
@@ -85,7 +81,7 @@ impl<'a> Flipper<'a> {
 
     fn restore_from(
         &mut self,
-        mesh: &mut Connectivity,
+        mesh: &mut PatchMesh,
         points: &[Vec3],
         first: Halfedge,
         budget: &mut usize,
@@ -106,7 +102,7 @@ impl<'a> Flipper<'a> {
         Ok(())
     }
 
-    fn may_flip(&self, mesh: &Connectivity, h: Halfedge, g: Halfedge) -> bool {
+    fn may_flip(&self, mesh: &PatchMesh, h: Halfedge, g: Halfedge) -> bool {
         let (c, d) = (mesh.apex(h), mesh.apex(g));
         let on_rim = c.max(d) < mesh.rim_count() as u32;
         let taken = mesh.has_edge(c, d) || (on_rim && (self.blocked)(c, d));
@@ -132,7 +128,7 @@ fn opposite_obtuse(points: &[Vec3], corners: [u32; 3], t: u32) -> Option<Halfedg
 
 /// Whether the edge violates the Delaunay condition and its flip would not fold the surface.
 #[inline]
-fn wants_flip(mesh: &Connectivity, points: &[Vec3], h: Halfedge, g: Halfedge) -> bool {
+fn wants_flip(mesh: &PatchMesh, points: &[Vec3], h: Halfedge, g: Halfedge) -> bool {
     let corner = |h| &points[mesh.origin(h) as usize];
     let (a, b, c, d) = (corner(h), corner(g), corner(prev(h)), corner(prev(g)));
     let (ca, cb, da, db) = (a - c, b - c, a - d, b - d);
@@ -162,11 +158,7 @@ fn keeps_sides([a, b, c, d]: [&Vec3; 4], normal_c: Vec3, normal_d: Vec3) -> bool
 
 /// Number of interior edges that [`Flipper::restore_all`] would still have to flip.
 #[cfg(test)]
-pub(super) fn count_violations(
-    mesh: &Connectivity,
-    points: &[Vec3],
-    blocked: &Blocked<'_>,
-) -> usize {
+pub(super) fn count_violations(mesh: &PatchMesh, points: &[Vec3], blocked: &Blocked<'_>) -> usize {
     let flipper = Flipper::new(blocked, &crate::job::UNLIMITED);
     (0..mesh.halfedge_count())
         .filter(|&h| {
@@ -184,16 +176,16 @@ mod tests {
     use crate::job::UNLIMITED;
     use proptest::prelude::*;
 
-    fn connect(points: &[Vec3], triangles: Vec<[u32; 3]>) -> Connectivity {
-        Connectivity::build(triangles, points.len(), points.len()).unwrap()
+    fn connect(points: &[Vec3], triangles: Vec<[u32; 3]>) -> PatchMesh {
+        PatchMesh::new(triangles, points.len(), points.len()).unwrap()
     }
 
-    fn flip_all(mesh: &mut Connectivity, points: &[Vec3], blocked: &Blocked<'_>) -> usize {
+    fn flip_all(mesh: &mut PatchMesh, points: &[Vec3], blocked: &Blocked<'_>) -> usize {
         let mut flipper = Flipper::new(blocked, &UNLIMITED);
         flipper.restore_all(mesh, points).unwrap()
     }
 
-    fn kite() -> (Vec<Vec3>, Connectivity) {
+    fn kite() -> (Vec<Vec3>, PatchMesh) {
         let points = vec![
             Vec3::new(-2.0, 0.0, 0.0),
             Vec3::new(0.0, -1.0, 0.0),
@@ -205,7 +197,7 @@ mod tests {
     }
 
     /// Whether any corner lies inside the circle of any triangle, by the in-circle determinant.
-    fn circles_are_empty(mesh: &Connectivity, points: &[Vec3]) -> bool {
+    fn circles_are_empty(mesh: &PatchMesh, points: &[Vec3]) -> bool {
         mesh.triangles().iter().all(|t| {
             points.iter().all(|p| {
                 let row = |v: u32| {

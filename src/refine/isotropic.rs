@@ -15,7 +15,6 @@
 //! two triangles of a strongly twisted patch intersect; that edges just under the splitting threshold
 //! are the best choice for very small holes.
 
-use super::connectivity::{Connectivity, Halfedge, next, prev};
 use super::density::SizeField;
 use super::flip::{Blocked, Flipper};
 use super::locality::renumber;
@@ -24,6 +23,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::job::Job;
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
+use crate::patch::mesh::{Halfedge, PatchMesh, next, prev};
 use std::cmp::Reverse;
 
 /// Each pass at least halves the longest edges' excess, give or take neighbours that exclude each
@@ -130,7 +130,7 @@ pub(crate) fn refine(
         ));
     }
     options.job.ask()?;
-    let mesh = Connectivity::build(
+    let mesh = PatchMesh::new(
         surface.triangles.clone(),
         surface.points.len(),
         surface.rim_count,
@@ -160,7 +160,7 @@ pub(crate) fn refine(
 type LongEdge = (Reverse<u32>, Halfedge);
 
 struct Refiner<'a> {
-    mesh: Connectivity,
+    mesh: PatchMesh,
     points: Vec<Vec3>,
     sizes: SizeField,
     options: &'a RefineOptions<'a>,

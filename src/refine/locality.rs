@@ -6,15 +6,15 @@
 //! of a million triangles every look at a neighbour then misses the cache, which costs a factor of
 //! four. `O(n log n)` for the sort. Nothing but numbers changes.
 
-use super::connectivity::Connectivity;
 use super::density::SizeField;
 use crate::math::Vec3;
+use crate::patch::mesh::PatchMesh;
 
 /// Bits per axis of a Morton code: three times 21 fill a `u64`.
 const AXIS_BITS: u32 = 21;
 
 /// Renumbers the interior vertices and all triangles; the rim keeps its numbers.
-pub(super) fn renumber(mesh: &mut Connectivity, points: &mut Vec<Vec3>, sizes: &mut SizeField) {
+pub(super) fn renumber(mesh: &mut PatchMesh, points: &mut Vec<Vec3>, sizes: &mut SizeField) {
     let rim = mesh.rim_count();
     let order = curve_order(points, rim);
     let mut renamed = vec![0u32; order.len()];
@@ -83,7 +83,7 @@ mod tests {
     fn renumbering_changes_nothing_but_numbers() {
         let rim = 7;
         let surface = fan_patch(disc_rim(rim));
-        let mut mesh = Connectivity::build(surface.triangles, rim, rim).unwrap();
+        let mut mesh = PatchMesh::new(surface.triangles, rim, rim).unwrap();
         let mut points = surface.points;
         let mut sizes = SizeField::new(
             &mesh,
@@ -102,7 +102,7 @@ mod tests {
                 mesh.split(h, g);
             }
         }
-        let describe = |mesh: &Connectivity, points: &[Vec3], sizes: &SizeField| {
+        let describe = |mesh: &PatchMesh, points: &[Vec3], sizes: &SizeField| {
             let corner = |v: u32| {
                 let p = points[v as usize];
                 [p.x, p.y, sizes.at(v)].map(f64::to_bits)

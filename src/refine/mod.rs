@@ -4,7 +4,6 @@
 //! they are. Nothing here knows the mesh outside the patch but for one question, asked through a
 //! callback: does the mesh already own an edge between these two rim vertices?
 
-mod connectivity;
 mod density;
 #[cfg(test)]
 mod fixtures;
@@ -14,8 +13,6 @@ mod locality;
 mod relax;
 #[cfg(test)]
 mod robustness;
-#[cfg(test)]
-mod validate;
 
 pub(crate) use density::{grading, rim_sizes};
 pub(crate) use isotropic::{RefineOptions, RefineReport, refine};

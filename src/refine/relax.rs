@@ -10,9 +10,9 @@
 //! guaranteed: that a triangle which is already folded gets unfolded (it never gets worse), and that
 //! the vertex stays on a curved surface (it stays in the tangent plane).
 
-use super::connectivity::{Connectivity, Halfedge, prev};
 use super::density::SizeField;
 use crate::math::Vec3;
+use crate::patch::mesh::{Halfedge, PatchMesh, prev};
 
 /// Part of the way to the centroid that one move goes; the full way oscillates.
 const STEP: f64 = 0.7;
@@ -38,12 +38,7 @@ struct Ring {
 
 /// Moves `v` if triangles surround it, updates its size, and returns the length of the move over the
 /// target edge length there.
-pub(super) fn relax(
-    mesh: &Connectivity,
-    points: &mut [Vec3],
-    sizes: &mut SizeField,
-    v: u32,
-) -> f64 {
+pub(super) fn relax(mesh: &PatchMesh, points: &mut [Vec3], sizes: &mut SizeField, v: u32) -> f64 {
     let Some(start) = mesh.closed_start(v) else {
         return 0.0;
     };
@@ -69,7 +64,7 @@ pub(super) fn relax(
 impl Ring {
     /// Walks round the vertex at `origin`, which the half-edge `start` leaves.
     fn new(
-        mesh: &Connectivity,
+        mesh: &PatchMesh,
         points: &[Vec3],
         sizes: &SizeField,
         start: Halfedge,
@@ -124,7 +119,7 @@ impl Ring {
 /// The way towards the centroid, in the tangent plane, as far as no triangle gets too small.
 fn limited_step(
     ring: &Ring,
-    mesh: &Connectivity,
+    mesh: &PatchMesh,
     points: &[Vec3],
     start: Halfedge,
     origin: &Vec3,
@@ -150,7 +145,7 @@ fn limited_step(
 
 /// The part of `step` after which the first triangle that shrinks has area `floor`, at most 1.
 fn way_to_fold(
-    mesh: &Connectivity,
+    mesh: &PatchMesh,
     points: &[Vec3],
     start: Halfedge,
     origin: &Vec3,
@@ -182,18 +177,18 @@ mod tests {
     use std::f64::consts::TAU;
 
     /// A wheel: vertex `n` is the hub of the polygon `rim`.
-    fn wheel(rim: Vec<Vec3>, hub: Vec3) -> (Connectivity, Vec<Vec3>) {
+    fn wheel(rim: Vec<Vec3>, hub: Vec3) -> (PatchMesh, Vec<Vec3>) {
         let n = rim.len() as u32;
         let triangles = (0..n).map(|i| [n, i, (i + 1) % n]).collect();
         let mut points = rim;
         points.push(hub);
         (
-            Connectivity::build(triangles, points.len(), points.len() - 1).unwrap(),
+            PatchMesh::new(triangles, points.len(), points.len() - 1).unwrap(),
             points,
         )
     }
 
-    fn sizes(mesh: &Connectivity, points: &[Vec3], grading: f64) -> SizeField {
+    fn sizes(mesh: &PatchMesh, points: &[Vec3], grading: f64) -> SizeField {
         let rim_count = mesh.rim_count();
         let surface = PatchSurface {
             rim_count,

@@ -59,7 +59,7 @@ pub(super) fn clip(
 
 /// A place in the queue; stale when the position has been cut or has a newer version.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
-struct Entry {
+struct Ear {
     /// Whether the ear faces away from both the rim and the polygon; such ears go last.
     is_folded: bool,
     /// Bits of a cost that is not negative: they sort like the number.
@@ -83,7 +83,7 @@ struct Clipper<'a> {
     facing: Vec<Vec3>,
     /// Direction of the polygon's area vector.
     axis: Vec3,
-    queue: BinaryHeap<Reverse<Entry>>,
+    queue: BinaryHeap<Reverse<Ear>>,
     ears: Vec<[u32; 3]>,
     joined: BTreeSet<(u32, u32)>,
 }
@@ -121,7 +121,7 @@ impl<'a> Clipper<'a> {
     }
 
     /// The ear's place in the queue; `None` when it must not be cut as things stand.
-    fn entry(&self, position: u32) -> Option<Entry> {
+    fn entry(&self, position: u32) -> Option<Ear> {
         let i = position as usize;
         let (before, after) = (self.previous[i] as usize, self.next[i] as usize);
         let [a, b, c] = self.ear_points(position);
@@ -141,7 +141,7 @@ impl<'a> Clipper<'a> {
         let sides_sq = (b - a).norm_squared() * (c - b).norm_squared() * (c - a).norm_squared();
         let radius = (sides_sq / doubled_area_sq).sqrt() / 2.0;
         let cost = radius.max((c - a).norm()) * distrust * (1.0 + TURN_PENALTY * excess);
-        Some(Entry {
+        Some(Ear {
             is_folded: !faces_rim && normal.dot(&self.axis) <= 0.0,
             cost: cost.to_bits(),
             position,

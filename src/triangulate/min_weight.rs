@@ -88,7 +88,7 @@ fn find_twin_chords(rules: &ChordRules<'_>, triangles: &[[u32; 3]]) -> Option<[(
 
 /// The winners at all chords `(i, j)`, `i < j`, row by row: of row `i` first `(i, i + 1)`, which is
 /// an edge of the polygon.
-struct Table {
+struct WeightTable {
     len: usize,
     /// Largest angle below and at the chord, as the squared distance of the two unit normals:
     /// it grows with the angle up to π and, unlike the cosine, keeps its digits at small angles.
@@ -98,7 +98,7 @@ struct Table {
     apex: Vec<u32>,
 }
 
-impl Table {
+impl WeightTable {
     fn new(len: usize) -> Self {
         let cells = len * (len - 1) / 2;
         Self {
@@ -154,7 +154,7 @@ fn solve(
     let len = polygon.len();
     let outside = |i: usize| polygon.outside_normals[i].unwrap_or(NO_NORMAL);
     let flatness = FlatnessTest::new(polygon.points);
-    let mut table = Table::new(len);
+    let mut table = WeightTable::new(len);
     let mut column = Column {
         measure: vec![IMPOSSIBLE; len],
         area: vec![0.0; len],
@@ -301,7 +301,7 @@ impl Candidates<'_> {
 }
 
 /// Lists the winning triangles `(i, k, j)`, `i < k < j`, from the closing edge inwards.
-fn trace(table: &Table) -> Vec<[u32; 3]> {
+fn trace(table: &WeightTable) -> Vec<[u32; 3]> {
     let mut triangles = Vec::with_capacity(table.len - 2);
     let mut chords = vec![(0, table.len - 1)];
     while let Some((i, j)) = chords.pop() {

@@ -32,6 +32,9 @@ const RULES: &[(&str, &[&str])] = &[
     ("boundary", &["error", "job", "math", "mesh"]),
     ("quality", &["error", "job", "math", "mesh"]),
     ("patch", &["error", "job", "math", "mesh"]),
+    // The triangulation of a patch: no coordinates.
+    ("patch::mesh", &["error", "mesh", "patch::edit"]),
+    ("patch::edit", &["patch::mesh"]),
     // What makes a patch knows nothing of loops, of the pipeline, of its judges or of each other.
     ("triangulate", &["error", "job", "math", "mesh", "patch"]),
     ("refine", &["error", "job", "math", "mesh", "patch"]),

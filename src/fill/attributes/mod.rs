@@ -12,7 +12,7 @@ mod columns;
 mod nearest;
 mod rbf;
 
-use super::hole::{Band, Hole};
+use super::hole::{BandInMesh, Hole};
 use crate::error::{Error, ErrorKind, Result};
 use crate::fair::kharmonic::{extend_from_rim, extend_with_slope};
 use crate::job::Job;
@@ -183,7 +183,7 @@ impl AttributeTask<'_> {
 
     /// The values of a column round the hole. `None` when one of them is not finite: it would spread over the
     /// whole patch.
-    fn channel(&self, column: usize, band: &Band) -> Option<Channel> {
+    fn channel(&self, column: usize, band: &BandInMesh) -> Option<Channel> {
         let attribute = &self.mesh.vertex_attributes().columns()[column];
         let number = |&v: &u32| attribute.values.number(v as usize).unwrap_or(0.0);
         let vertices = self.hole.rim.iter().chain(&band.vertices);
@@ -199,7 +199,7 @@ impl AttributeTask<'_> {
     fn interpolate(
         &self,
         first: Interpolator,
-        band: &Band,
+        band: &BandInMesh,
         channels: &[Channel],
     ) -> Result<Option<Vec<Vec<f64>>>> {
         let chain = [
@@ -240,7 +240,7 @@ impl AttributeTask<'_> {
         of(self.method).or_else(|| of(Method::Mls))
     }
 
-    fn by_method(&self, band: &Band, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {
+    fn by_method(&self, band: &BandInMesh, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {
         let extension = self
             .extension()
             .ok_or_else(|| Error::invalid("no method extends values"))?;
@@ -250,7 +250,11 @@ impl AttributeTask<'_> {
         (extension.extend)(&task, &band.surroundings, &known, new_points)
     }
 
-    fn by_radial_functions(&self, band: &Band, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {
+    fn by_radial_functions(
+        &self,
+        band: &BandInMesh,
+        channels: &[Channel],
+    ) -> Result<Vec<Vec<f64>>> {
         let surface = self.surface;
         let mut points = self.hole.shape.points.clone();
         points.extend_from_slice(&band.surroundings.points);
@@ -288,7 +292,7 @@ impl AttributeTask<'_> {
         Ok(result)
     }
 
-    fn by_thin_plate(&self, band: &Band, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {
+    fn by_thin_plate(&self, band: &BandInMesh, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {
         let rim_count = self.surface.rim_count;
         let mut solver = SpdSolver::new(self.job);
         let mut result = Vec::with_capacity(channels.len());

@@ -15,6 +15,8 @@ use super::vicinity::{Vicinity, rim_loops};
 use crate::error::{Error, ErrorKind, Result};
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal};
+use crate::patch::chords::joined_chords;
+use crate::patch::mesh::PatchMesh;
 use crate::patch::{HoleShape, PatchSurface, Surroundings};
 use crate::triangulate::planar::triangulate_planar_region;
 use crate::triangulate::simple_polygon::{Point2, find_contact};
@@ -133,13 +135,19 @@ impl<'a> HeightField<'a> {
         // The triangulation counts the vertices of the loops and then the samples.
         let order: Vec<u32> = self.loops.iter().flatten().copied().collect();
         let mut triangles = triangulate_planar_region(&loops, &samples, job)?;
+        let shift = hole.points.len() - order.len();
+        let global = |v: u32| order.get(v as usize).copied().unwrap_or(v + shift as u32);
         for round in 0.. {
-            let chords = self.existing_edges(&order, &triangles);
+            let triangles_in_space = triangles.iter().map(|t| t.map(global)).collect();
+            let count = hole.points.len() + samples.len();
+            let mesh = PatchMesh::new(triangles_in_space, count, hole.points.len())?;
+            let mut chords = joined_chords(&mesh, hole);
             if chords.is_empty() || round == CHORD_ROUNDS {
                 break;
             }
-            samples.extend(chords.iter().map(|c| {
-                let [a, b] = c.map(|v| self.uv[v as usize]);
+            chords.sort_unstable();
+            samples.extend(chords.iter().map(|&(a, b)| {
+                let [a, b] = [a, b].map(|v| self.uv[v as usize]);
                 [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
             }));
             triangles = triangulate_planar_region(&loops, &samples, job)?;
@@ -150,34 +158,11 @@ impl<'a> HeightField<'a> {
             let place = Place { uv, height };
             self.domain.point(&place)
         }));
-        let shift = hole.points.len() - order.len();
-        let global = |v: u32| order.get(v as usize).copied().unwrap_or(v + shift as u32);
         Ok(PatchSurface {
             rim_count: hole.points.len(),
             points,
             triangles: triangles.into_iter().map(|t| t.map(global)).collect(),
         })
-    }
-
-    /// Edges inside the triangulation between rim vertices that the mesh joins already.
-    fn existing_edges(&self, order: &[u32], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
-        let mut rim_edges: Vec<(u32, u32)> = self
-            .loops
-            .iter()
-            .flat_map(|l| (0..l.len()).map(|i| (l[i], l[(i + 1) % l.len()])))
-            .map(|(a, b)| (a.min(b), a.max(b)))
-            .collect();
-        rim_edges.sort_unstable();
-        let mut found: Vec<[u32; 2]> = triangles
-            .iter()
-            .flat_map(|t| (0..3).map(|k| [t[k], t[(k + 1) % 3]]))
-            .filter_map(|[a, b]| Some([*order.get(a as usize)?, *order.get(b as usize)?]))
-            .filter(|&[a, b]| a < b && self.hole.is_joined(a, b))
-            .filter(|&[a, b]| rim_edges.binary_search(&(a, b)).is_err())
-            .collect();
-        found.sort_unstable();
-        found.dedup();
-        found
     }
 
     /// The values of the moving fit at each of `places`.

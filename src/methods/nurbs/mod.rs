@@ -53,7 +53,7 @@ fn make(task: &Task<'_>) -> Result<PatchSurface> {
             let mut known: Vec<Vec3> = near.iter().rev().map(|k| k.point).collect();
             known.extend([section.origin, second]);
             known.extend(far.iter().map(|k| k.point));
-            curves.push(Curve::through(&known, inner));
+            curves.push(SplineCurve::through(&known, inner));
         }
         Ok(sections
             .iter()
@@ -69,7 +69,7 @@ fn make(task: &Task<'_>) -> Result<PatchSurface> {
 }
 
 /// A point of the spline surface: the curves of even number are interpolated, those between them give way.
-fn across(curves: &[Curve], r: usize, share: f64) -> Vec3 {
+fn across(curves: &[SplineCurve], r: usize, share: f64) -> Vec3 {
     let is_between = r % 2 == 1 && r >= 3 && r + 3 < curves.len();
     if !is_between {
         return curves[r].at(share);
@@ -82,7 +82,7 @@ fn across(curves: &[Curve], r: usize, share: f64) -> Vec3 {
 }
 
 /// The span over the hole of the natural cubic spline through known points, parametrized by the length of chords.
-struct Curve {
+struct SplineCurve {
     ends: [Vec3; 2],
     /// Second derivatives at the ends.
     bends: [Vec3; 2],
@@ -90,7 +90,7 @@ struct Curve {
     length: f64,
 }
 
-impl Curve {
+impl SplineCurve {
     /// The span after the point number `inner`; there are at least two points.
     fn through(points: &[Vec3], inner: usize) -> Self {
         let steps: Vec<f64> = points.windows(2).map(|w| (w[1] - w[0]).norm()).collect();
@@ -139,7 +139,7 @@ mod tests {
             .iter()
             .map(|&x| Vec3::new(x, 2.0 * x, 1.0))
             .collect();
-        let curve = Curve::through(&points, 2);
+        let curve = SplineCurve::through(&points, 2);
         assert!((curve.at(0.0) - points[2]).norm() < 1e-12);
         assert!((curve.at(1.0) - points[3]).norm() < 1e-12);
         let expected = points[2].lerp(&points[3], 0.3);
@@ -156,7 +156,10 @@ mod tests {
             .collect();
         let h = 1e-5;
         for i in 1..5 {
-            let (before, after) = (Curve::through(&points, i - 1), Curve::through(&points, i));
+            let (before, after) = (
+                SplineCurve::through(&points, i - 1),
+                SplineCurve::through(&points, i),
+            );
             let knot = points[i];
             let left = (knot - before.at(1.0 - h / before.length)) / h;
             let right = (after.at(h / after.length) - knot) / h;
@@ -170,9 +173,9 @@ mod tests {
         let curve = |r: usize| {
             let y = r as f64;
             let at = |x: f64| Vec3::new(x, y, 0.1 * y * y * y - y * x);
-            Curve::through(&[at(0.0), at(1.0)], 0)
+            SplineCurve::through(&[at(0.0), at(1.0)], 0)
         };
-        let curves: Vec<Curve> = (0..9).map(curve).collect();
+        let curves: Vec<SplineCurve> = (0..9).map(curve).collect();
         for r in 0..9 {
             let y = r as f64;
             let expected = Vec3::new(0.4, y, 0.1 * y * y * y - 0.4 * y);

@@ -10,7 +10,7 @@ use crate::math::{Vec3, unit};
 
 /// A pair of base points that face each other, as indices of the rotated sequence: `first < second`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Pair {
+pub(crate) struct Correspondence {
     pub(crate) first: usize,
     pub(crate) second: usize,
 }
@@ -52,7 +52,7 @@ pub(super) fn start_of_cut(n: usize, i: usize, j: usize) -> usize {
 
 /// The partners of the sequence from its ends inwards. A point at which the line to its partner makes an angle
 /// with the rim whose sine is below `smallest_sine` is passed over, on its side only.
-pub(super) fn pairs(base: &[BasePoint], smallest_sine: f64) -> Vec<Pair> {
+pub(super) fn pairs(base: &[BasePoint], smallest_sine: f64) -> Vec<Correspondence> {
     let n = base.len();
     let mut pairs = Vec::new();
     let (mut first, mut second) = (0, n.saturating_sub(1));
@@ -63,7 +63,7 @@ pub(super) fn pairs(base: &[BasePoint], smallest_sine: f64) -> Vec<Pair> {
         };
         let (skip_first, skip_second) = (is_flat(first), is_flat(second));
         if !skip_first && !skip_second {
-            pairs.push(Pair { first, second });
+            pairs.push(Correspondence { first, second });
         }
         let step_both = skip_first == skip_second;
         first += usize::from(step_both || skip_first);
@@ -120,7 +120,7 @@ mod tests {
         let sine = 12_f64.to_radians().sin();
         let pairs = pairs(&base, sine);
         // The chord between two points of a circle meets it at half the angle between them.
-        let angle = |p: &Pair| std::f64::consts::PI * (p.second - p.first) as f64 / 40.0;
+        let angle = |p: &Correspondence| std::f64::consts::PI * (p.second - p.first) as f64 / 40.0;
         assert!(pairs.iter().all(|p| p.first + p.second == 39));
         assert!(pairs.iter().all(|p| angle(p).sin() >= sine));
         assert_eq!(pairs.len(), 18);

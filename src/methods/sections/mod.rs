@@ -40,7 +40,7 @@ use optimize::Editor;
 use options::{SectionOptions, SectionProjection, SectionTangents};
 use rim::{Rim, check_simple, edge_normals, mean_edge_length};
 use section::{Section, assemble, prepare};
-use smoothing::{Neighbours, smooth};
+use smoothing::{NeighborLists, smooth};
 use std::borrow::Cow;
 
 /// Rings of known triangles that are read: two for the normals of the rim's neighbours, one more for the next ones.
@@ -163,9 +163,9 @@ fn denoise(hole: &mut HoleShape, steps: usize) {
     let m = hole.polygon.len();
     let mut points: Vec<Vec3> = hole.points.clone();
     points.extend(&hole.surroundings.points);
-    let inner = Neighbours::new(&hole.surroundings.triangles, points.len());
+    let inner = NeighborLists::new(&hole.surroundings.triangles, points.len());
     let along = (0..m).map(|i| (hole.polygon[i], hole.polygon[(i + 1) % m]));
-    let rim = Neighbours::of_edges(along, points.len());
+    let rim = NeighborLists::of_edges(along, points.len());
     let outermost = hole.surroundings.levels.iter().copied().max().unwrap_or(0);
     let is_inner = |v: usize| v >= rim_count && hole.surroundings.levels[v - rim_count] < outermost;
     smooth(&mut points, &rim, |v| v < rim_count, steps);
@@ -188,7 +188,7 @@ fn finish(
     if options.smoothing {
         let triangles: Vec<[u32; 3]> = editor.triangles().collect();
         let points = editor.points_mut();
-        let neighbours = Neighbours::new(&triangles, points.len());
+        let neighbours = NeighborLists::new(&triangles, points.len());
         smooth(points, &neighbours, |v| v >= m, options.smoothing_steps);
     }
     editor.collapse_short(options.shortest_edge * rim.edge_length);
@@ -235,8 +235,7 @@ fn triangulated<'a>(
             points,
             triangles: triangles.into_iter().map(|t| t.map(number)).collect(),
         };
-        let mut editor = Editor::new(surface, hole);
-        editor.split_joined();
+        let mut editor = Editor::new(surface, hole)?;
         editor.swap_edges(job)?;
         editor.unfold(FOLDED);
         let folds = editor.folds(FOLDED);

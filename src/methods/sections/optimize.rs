@@ -10,6 +10,8 @@
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
+use crate::patch::chords::{joined_chords, split_middle};
+use crate::patch::mesh::{Halfedge, PatchMesh, next, prev};
 use crate::patch::{HoleShape, PatchSurface};
 use std::collections::BTreeSet;
 
@@ -19,31 +21,45 @@ const LARGEST_TURN: f64 = 0.5;
 /// A swap must raise the smallest angle by this many radians, so that rounding cannot swap back and forth.
 const LEAST_GAIN: f64 = 1e-6;
 
-/// The patch while it is changed: triangles are marked as gone instead of moved.
+/// The patch while it is changed.
 pub(super) struct Editor<'a> {
+    mesh: PatchMesh,
     points: Vec<Vec3>,
-    triangles: Vec<[u32; 3]>,
-    is_alive: Vec<bool>,
-    /// Triangles at each point.
-    around: Vec<Vec<u32>>,
     hole: &'a HoleShape,
+    /// The number of the last change of each triangle, and how many there were. Of two triangles at an edge the one that
+    /// was changed earlier comes first, which settles the order of the swaps.
+    changed: Vec<usize>,
+    changes: usize,
 }
 
 impl<'a> Editor<'a> {
-    pub(super) fn new(surface: PatchSurface, hole: &'a HoleShape) -> Self {
-        let mut around = vec![Vec::new(); surface.points.len()];
-        for (k, t) in (0..).zip(&surface.triangles) {
-            for &v in t {
-                around[v as usize].push(k);
+    /// Splits every edge that joins two rim vertices which the mesh joins already.
+    ///
+    /// # Errors
+    /// Those of [`PatchMesh::new`].
+    pub(super) fn new(surface: PatchSurface, hole: &'a HoleShape) -> Result<Self> {
+        let triangle_count = surface.triangles.len();
+        let point_count = surface.points.len();
+        let mut editor = Self {
+            mesh: PatchMesh::new(surface.triangles, point_count, surface.rim_count)?,
+            points: surface.points,
+            hole,
+            changed: (0..triangle_count).collect(),
+            changes: triangle_count,
+        };
+        let mut chords = joined_chords(&editor.mesh, hole);
+        chords.sort_unstable();
+        for (a, b) in chords {
+            let Some([h, g]) = editor.sides(a, b) else {
+                continue;
+            };
+            let added = editor.mesh.triangles().len() as Halfedge;
+            split_middle(&mut editor.mesh, &mut editor.points, h, g);
+            for t in [h / 3, added, g / 3, added + 1] {
+                editor.touch(t);
             }
         }
-        Self {
-            is_alive: vec![true; surface.triangles.len()],
-            points: surface.points,
-            triangles: surface.triangles,
-            around,
-            hole,
-        }
+        Ok(editor)
     }
 
     /// The patch without what is gone, and without points that no triangle has.
@@ -52,19 +68,16 @@ impl<'a> Editor<'a> {
         let mut number = vec![u32::MAX; self.points.len()];
         let mut points = Vec::new();
         for (v, p) in self.points.iter().enumerate() {
-            if v < rim_count || !self.around[v].is_empty() {
+            if v < rim_count || self.mesh.closed_start(v as u32).is_some() {
                 number[v] = points.len() as u32;
                 points.push(*p);
             }
         }
-        let alive = self.triangles.iter().zip(&self.is_alive);
+        let triangles = self.mesh.living();
         PatchSurface {
             rim_count,
             points,
-            triangles: alive
-                .filter(|(_, alive)| **alive)
-                .map(|(t, _)| t.map(|v| number[v as usize]))
-                .collect(),
+            triangles: triangles.map(|t| t.map(|v| number[v as usize])).collect(),
         }
     }
 
@@ -73,12 +86,11 @@ impl<'a> Editor<'a> {
     }
 
     pub(super) fn triangles(&self) -> impl Iterator<Item = [u32; 3]> {
-        let alive = self.triangles.iter().zip(&self.is_alive);
-        alive.filter(|(_, alive)| **alive).map(|(t, _)| *t)
+        self.mesh.living()
     }
 
     fn is_rim(&self, v: u32) -> bool {
-        (v as usize) < self.hole.points.len()
+        (v as usize) < self.mesh.rim_count()
     }
 
     fn length(&self, a: u32, b: u32) -> f64 {
@@ -90,92 +102,37 @@ impl<'a> Editor<'a> {
         unit(cross_normal(&a, &b, &c))
     }
 
-    /// The triangles at the edge, each turned so that it begins with the edge as it runs there.
-    fn at_edge(&self, a: u32, b: u32) -> Vec<(u32, [u32; 3])> {
-        let mut found = Vec::with_capacity(2);
-        for &k in &self.around[a as usize] {
-            let t = self.triangles[k as usize];
-            for i in 0..3 {
-                let turned = [t[i], t[(i + 1) % 3], t[(i + 2) % 3]];
-                if (turned[0], turned[1]) == (a, b) || (turned[0], turned[1]) == (b, a) {
-                    found.push((k, turned));
-                }
-            }
-        }
-        found
+    fn triangle(&self, h: Halfedge) -> [u32; 3] {
+        self.mesh.triangles()[h as usize / 3]
     }
 
-    /// Sorted.
-    fn neighbours(&self, v: u32) -> Vec<u32> {
-        let mut around: Vec<u32> = self.around[v as usize]
-            .iter()
-            .flat_map(|&k| self.triangles[k as usize])
-            .filter(|&w| w != v)
-            .collect();
-        around.sort_unstable();
-        around.dedup();
-        around
+    fn normal_at(&self, h: Halfedge) -> Vec3 {
+        self.normal(self.triangle(h))
     }
 
-    /// All edges that have two triangles, smaller end first.
+    /// Notes that triangle `t` changes.
+    fn touch(&mut self, t: u32) {
+        self.changed.resize(self.mesh.triangles().len(), 0);
+        self.changed[t as usize] = self.changes;
+        self.changes += 1;
+    }
+
+    /// The half-edges between two vertices whose edge has two triangles, that of the first triangle first.
+    fn sides(&self, a: u32, b: u32) -> Option<[Halfedge; 2]> {
+        let h = self.mesh.edge_between(a, b)?;
+        let g = self.mesh.opposite(h)?;
+        let mut sides = [h, g];
+        sides.sort_by_key(|&h| self.changed[h as usize / 3]);
+        Some(sides)
+    }
+
+    /// All edges that have two triangles, smaller end first, sorted.
     fn interior_edges(&self) -> Vec<(u32, u32)> {
-        let mut edges: Vec<(u32, u32)> = self
-            .triangles()
-            .flat_map(|t| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])])
-            .map(|(a, b)| (a.min(b), a.max(b)))
-            .collect();
+        let ends = |h| (self.mesh.origin(h), self.mesh.target(h));
+        let edges = self.mesh.interior_edges().map(ends);
+        let mut edges: Vec<(u32, u32)> = edges.map(|(a, b)| (a.min(b), a.max(b))).collect();
         edges.sort_unstable();
         edges
-            .chunk_by(|e, f| e == f)
-            .filter(|same| same.len() == 2)
-            .map(|same| same[0])
-            .collect()
-    }
-
-    /// Cuts every edge that joins two rim vertices which the mesh joins already, at its middle.
-    pub(super) fn split_joined(&mut self) {
-        for (a, b) in self.interior_edges() {
-            if self.is_rim(b) && self.hole.is_joined(a, b) {
-                self.split(a, b);
-            }
-        }
-    }
-
-    fn split(&mut self, a: u32, b: u32) {
-        let middle = self.points.len() as u32;
-        self.points
-            .push((self.points[a as usize] + self.points[b as usize]) / 2.0);
-        self.around.push(Vec::new());
-        for (k, [from, to, tip]) in self.at_edge(a, b) {
-            self.replace(k, [from, middle, tip]);
-            self.add([middle, to, tip]);
-        }
-    }
-
-    fn add(&mut self, t: [u32; 3]) {
-        let k = self.triangles.len() as u32;
-        self.triangles.push(t);
-        self.is_alive.push(true);
-        for v in t {
-            self.around[v as usize].push(k);
-        }
-    }
-
-    fn remove(&mut self, k: u32) {
-        for v in self.triangles[k as usize] {
-            self.around[v as usize].retain(|&other| other != k);
-        }
-        self.is_alive[k as usize] = false;
-    }
-
-    fn replace(&mut self, k: u32, t: [u32; 3]) {
-        for v in self.triangles[k as usize] {
-            self.around[v as usize].retain(|&other| other != k);
-        }
-        self.triangles[k as usize] = t;
-        for v in t {
-            self.around[v as usize].push(k);
-        }
     }
 
     /// Collapses edges that are shorter than `shortest`, the shortest first, and returns how many. Two interior
@@ -209,14 +166,14 @@ impl<'a> Editor<'a> {
             }
             let (a, b) = (edge.1, edge.2);
             // Gone or changed since.
-            if self.at_edge(a, b).len() != 2 || self.length(a, b).to_bits() != edge.0 {
+            if self.sides(a, b).is_none() || self.length(a, b).to_bits() != edge.0 {
                 continue;
             }
             let Some(kept) = self.collapse(a, b) else {
                 continue;
             };
             count += 1;
-            for w in self.neighbours(kept) {
+            for w in self.mesh.neighbors(kept) {
                 let (a, b) = (kept.min(w), kept.max(w));
                 let renewed_edge = key(self, (a, b));
                 if f64::from_bits(renewed_edge.0) < shortest {
@@ -229,62 +186,47 @@ impl<'a> Editor<'a> {
     /// Collapses an interior edge, if that is allowed; returns the vertex that is left.
     fn collapse(&mut self, a: u32, b: u32) -> Option<u32> {
         let (kept, gone) = if self.is_rim(b) { (b, a) } else { (a, b) };
-        if self.is_rim(gone) {
-            return None;
-        }
         let position = if self.is_rim(kept) {
             self.points[kept as usize]
         } else {
             (self.points[a as usize] + self.points[b as usize]) / 2.0
         };
-        let of_kept = self.neighbours(kept);
-        let common: Vec<u32> = self
-            .neighbours(gone)
-            .into_iter()
-            .filter(|w| of_kept.binary_search(w).is_ok())
-            .collect();
-        // The link condition, and no vertex left with two triangles.
-        let is_simple = common.len() == 2
-            && common
-                .iter()
-                .all(|&w| self.is_rim(w) || self.around[w as usize].len() > 3);
-        if !is_simple {
-            return None;
-        }
         if self.is_rim(kept) {
-            let joins = |w: u32| self.is_rim(w) && self.hole.is_joined(kept, w);
+            let of_kept = self.mesh.neighbors(kept);
             let is_new = |w: u32| w != kept && of_kept.binary_search(&w).is_err();
-            if self.neighbours(gone).iter().any(|&w| is_new(w) && joins(w)) {
+            let mut of_gone = self.mesh.neighbors(gone).into_iter();
+            if of_gone.any(|w| is_new(w) && self.hole.is_joined(kept, w)) {
                 return None;
             }
         }
-        let doomed: Vec<u32> = self.at_edge(a, b).into_iter().map(|(k, _)| k).collect();
-        let mut moved: Vec<u32> = self.around[gone as usize].clone();
-        if !self.is_rim(kept) {
-            moved.extend(&self.around[kept as usize]);
-        }
-        moved.retain(|k| !doomed.contains(k));
-        let keeps_side = moved.iter().all(|&k| {
-            let t = self.triangles[k as usize];
-            let [p, q, r] = t.map(|v| {
-                if v == gone || v == kept {
+        let keeps_side = |h: Halfedge| {
+            let t = self.triangle(h);
+            let is_end = |v: u32| v == gone || v == kept;
+            let moved = t.map(|v| {
+                if is_end(v) {
                     position
                 } else {
                     self.points[v as usize]
                 }
             });
-            unit(cross_normal(&p, &q, &r)).dot(&self.normal(t)) > LARGEST_TURN
-        });
-        if !keeps_side {
+            let [p, q, r] = moved;
+            t.into_iter().filter(|&v| is_end(v)).count() == 2
+                || unit(cross_normal(&p, &q, &r)).dot(&self.normal(t)) > LARGEST_TURN
+        };
+        let mut moved = self.mesh.corners(gone);
+        if !moved.all(keeps_side)
+            || (!self.is_rim(kept) && !self.mesh.corners(kept).all(keeps_side))
+        {
             return None;
         }
-        for k in doomed {
-            self.remove(k);
+        let [h, g] = self.sides(a, b)?;
+        let h = if self.mesh.origin(h) == gone { h } else { g };
+        let mut left: Vec<u32> = self.mesh.corners(gone).map(|h| h / 3).collect();
+        if !self.mesh.collapse(h) {
+            return None;
         }
-        for k in self.around[gone as usize].clone() {
-            let t = self.triangles[k as usize].map(|v| if v == gone { kept } else { v });
-            self.replace(k, t);
-        }
+        left.sort_by_key(|&t| self.changed[t as usize]);
+        left.into_iter().for_each(|t| self.touch(t));
         self.points[kept as usize] = position;
         Some(kept)
     }
@@ -315,17 +257,9 @@ impl<'a> Editor<'a> {
 
     /// Swaps an edge if that is allowed and better; returns the ends of the new one.
     fn swap(&mut self, a: u32, b: u32) -> Option<[u32; 2]> {
-        let [(k, [from, to, c]), (l, [_, _, d])] = self.at_edge(a, b)[..] else {
-            return None;
-        };
-        if self.is_rim(c) && self.is_rim(d) && self.hole.is_joined(c, d) {
-            return None;
-        }
-        if !self.at_edge(c, d).is_empty() {
-            return None;
-        }
-        let old = [self.triangles[k as usize], self.triangles[l as usize]];
-        let new = [[c, from, d], [d, to, c]];
+        let [h, g] = self.sides(a, b)?;
+        let new = self.swapped(h, g)?;
+        let old = [self.triangle(h), self.triangle(g)];
         let smallest = |pair: [[u32; 3]; 2]| {
             let angle = |t: [u32; 3]| smallest_angle(t.map(|v| self.points[v as usize]));
             angle(pair[0]).min(angle(pair[1]))
@@ -340,46 +274,65 @@ impl<'a> Editor<'a> {
         {
             return None;
         }
-        self.replace(k, new[0]);
-        self.replace(l, new[1]);
-        Some([c, d])
+        self.flip(h, g);
+        Some([new[0][0], new[1][0]])
+    }
+
+    /// The triangles that take the places of those of `h` and `g` when their edge is swapped, unless there is such an
+    /// edge already.
+    fn swapped(&self, h: Halfedge, g: Halfedge) -> Option<[[u32; 3]; 2]> {
+        let mesh = &self.mesh;
+        let (a, b, c, d) = (mesh.origin(h), mesh.origin(g), mesh.apex(h), mesh.apex(g));
+        let is_taken = self.hole.is_joined(c, d) || mesh.has_edge(c, d);
+        (!is_taken).then_some([[c, a, d], [d, b, c]])
+    }
+
+    /// Swaps an edge; the new triangles are those of [`Self::swapped`].
+    fn flip(&mut self, h: Halfedge, g: Halfedge) {
+        self.mesh.flip(h, g);
+        self.mesh.place(prev(h), h / 3);
+        self.mesh.place(prev(g), g / 3);
+        self.touch(h / 3);
+        self.touch(g / 3);
     }
 
     /// Swaps edges at which the patch is folded, if it is folded less afterwards.
     pub(super) fn unfold(&mut self, folded: f64) {
         for [a, b, c, d] in self.folds(folded) {
-            let is_pair = matches!(self.at_edge(a, b)[..], [(_, [_, _, e]), (_, [_, _, f])] if (e, f) == (c, d));
-            let is_barred = self.is_rim(c) && self.is_rim(d) && self.hole.is_joined(c, d);
-            if !is_pair || is_barred || !self.at_edge(c, d).is_empty() {
-                continue;
-            }
-            let around = [(a, c), (c, b), (b, d), (d, a)];
-            let worst = |editor: &Self, inner: (u32, u32)| {
-                let edges = around.iter().chain([&inner]);
-                edges.map(|&(v, w)| editor.bend(v, w)).fold(1.0, f64::min)
-            };
-            let before = worst(self, (a, b));
-            let [(k, [from, to, _]), (l, _)] = self.at_edge(a, b)[..] else {
+            let Some([h, g]) = self.sides(a, b) else {
                 continue;
             };
-            let old = [self.triangles[k as usize], self.triangles[l as usize]];
-            self.replace(k, [c, from, d]);
-            self.replace(l, [d, to, c]);
-            if worst(self, (c, d)) <= before {
-                self.replace(k, old[0]);
-                self.replace(l, old[1]);
+            if (self.mesh.apex(h), self.mesh.apex(g)) != (c, d) {
+                continue;
             }
-        }
-    }
-
-    /// The cosine of the angle between the normals at an edge; 1 at the rim.
-    fn bend(&self, a: u32, b: u32) -> f64 {
-        match self.at_edge(a, b)[..] {
-            [(k, _), (l, _)] => {
-                let [n, m] = [k, l].map(|k| self.normal(self.triangles[k as usize]));
-                n.dot(&m)
+            let Some(new) = self.swapped(h, g) else {
+                continue;
+            };
+            let [at_h, at_g] = new.map(|t| self.normal(t));
+            // The edges round the two triangles: the old normal there, and the new one.
+            let (old_h, old_g) = (self.normal_at(h), self.normal_at(g));
+            let round = [
+                (next(h), old_h, at_g),
+                (prev(h), old_h, at_h),
+                (next(g), old_g, at_h),
+                (prev(g), old_g, at_g),
+            ];
+            let mut before = old_h.dot(&old_g).min(1.0);
+            let mut after = at_h.dot(&at_g).min(1.0);
+            for (side, old, new) in round {
+                if let Some(outside) = self.mesh.opposite(side) {
+                    let normal = self.normal_at(outside);
+                    before = before.min(old.dot(&normal));
+                    after = after.min(new.dot(&normal));
+                }
             }
-            _ => 1.0,
+            if after > before {
+                self.flip(h, g);
+            } else {
+                // What was looked at counts as changed.
+                self.touch(h / 3);
+                self.touch(g / 3);
+            }
         }
     }
 
@@ -388,11 +341,10 @@ impl<'a> Editor<'a> {
     pub(super) fn folds(&self, folded: f64) -> Vec<[u32; 4]> {
         let mut folds = Vec::new();
         for (a, b) in self.interior_edges() {
-            if let [(k, [_, _, c]), (l, [_, _, d])] = self.at_edge(a, b)[..] {
-                let [n, m] = [k, l].map(|k| self.normal(self.triangles[k as usize]));
-                if n.dot(&m) < folded {
-                    folds.push([a, b, c, d]);
-                }
+            if let Some([h, g]) = self.sides(a, b)
+                && self.normal_at(h).dot(&self.normal_at(g)) < folded
+            {
+                folds.push([a, b, self.mesh.apex(h), self.mesh.apex(g)]);
             }
         }
         folds

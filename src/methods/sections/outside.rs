@@ -139,7 +139,7 @@ impl<'a> Outside<'a> {
 #[cfg(test)]
 mod tests {
     use super::super::base_points::base_points;
-    use super::super::correspondences::Pair;
+    use super::super::correspondences::Correspondence;
     use super::super::rim::Rim;
     use super::*;
     use crate::patch::Surroundings;
@@ -210,7 +210,7 @@ mod tests {
                 continue;
             }
             let section = Prepared {
-                pair: Pair {
+                pair: Correspondence {
                     first: 0,
                     second: 0,
                 },

@@ -5,7 +5,7 @@
 
 use super::arcs::Arc;
 use super::base_points::{BasePoint, rim_direction};
-use super::correspondences::Pair;
+use super::correspondences::Correspondence;
 use super::options::SectionOptions;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec3, unit};
@@ -31,7 +31,7 @@ const MOST_CROSSING: f64 = 0.5;
 /// one and `y` is across the line between them; `ahead`, its normal, points on to the next sections.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Prepared {
-    pub(crate) pair: Pair,
+    pub(crate) pair: Correspondence,
     pub(crate) origin: Vec3,
     pub(crate) x: Vec3,
     pub(crate) y: Vec3,
@@ -62,7 +62,7 @@ pub(crate) type Predicted = Vec<Vec<Vec3>>;
 /// The points predicted between two base points, in order.
 #[derive(Clone, Debug)]
 pub(super) struct Section {
-    pub(super) pair: Pair,
+    pub(super) pair: Correspondence,
     pub(super) points: Vec<Vec3>,
     origin: Vec3,
     ahead: Vec3,
@@ -75,7 +75,7 @@ pub(super) struct Section {
 /// `most_points`.
 pub(super) fn prepare(
     base: &[BasePoint],
-    pairs: &[Pair],
+    pairs: &[Correspondence],
     edge_length: f64,
     most_points: usize,
     options: &SectionOptions,
@@ -144,7 +144,7 @@ pub(super) fn assemble(
 
 /// Equation 11. `None` where the neighbouring pairs do not say where the section goes, or where its plane lies along
 /// the surface: where the rim ends in a plane across the surface, all lines between its points are in that plane.
-fn frame(base: &[BasePoint], pair: Pair) -> Option<Prepared> {
+fn frame(base: &[BasePoint], pair: Correspondence) -> Option<Prepared> {
     let n = base.len();
     let at = |k: usize| base[k % n].position;
     let (first, second) = (at(pair.first), at(pair.second));
@@ -169,7 +169,7 @@ fn frame(base: &[BasePoint], pair: Pair) -> Option<Prepared> {
 }
 
 /// The angles at which the surface leaves the section's line at its two ends, both measured upwards and inwards.
-fn angles(base: &[BasePoint], pair: Pair, frame: &Prepared) -> [Option<f64>; 2] {
+fn angles(base: &[BasePoint], pair: Correspondence, frame: &Prepared) -> [Option<f64>; 2] {
     [(pair.first, 1.0), (pair.second, -1.0)].map(|(k, inwards)| {
         let BasePoint { normal, .. } = base[k];
         let rim = rim_direction(base, k);

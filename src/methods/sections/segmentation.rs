@@ -71,7 +71,7 @@ pub(super) fn cut(base: &[BasePoint], critical: f64) -> Option<Cut> {
         let normal: Vec3 = range.clone().map(|k| base[k % n].normal).sum();
         fit_plane(&positions(range)).normal.dot(&unit(normal)) >= SHOWS_SURFACE
     };
-    let moments = Moments::new(base);
+    let moments = PlaneMoments::new(base);
     let mut step = n.div_ceil(COARSE);
     let places: Vec<usize> = (0..n).step_by(step).collect();
     let mut best: Option<(f64, Cut)> = None;
@@ -116,11 +116,11 @@ pub(super) fn cut(base: &[BasePoint], critical: f64) -> Option<Cut> {
 }
 
 /// Sums of coordinates and of their products over the first base points.
-struct Moments {
+struct PlaneMoments {
     sums: Vec<(Vec3, Matrix3<f64>)>,
 }
 
-impl Moments {
+impl PlaneMoments {
     fn new(base: &[BasePoint]) -> Self {
         let mut sums = vec![(Vec3::zeros(), Matrix3::zeros())];
         let (mut sum, mut products) = sums[0];

@@ -13,12 +13,12 @@ const MU: f64 = -LAMBDA / (1.0 - 0.1 * LAMBDA);
 
 /// The neighbours of each point, one list after the other.
 #[derive(Clone, Debug)]
-pub(super) struct Neighbours {
+pub(super) struct NeighborLists {
     starts: Vec<usize>,
     ends: Vec<u32>,
 }
 
-impl Neighbours {
+impl NeighborLists {
     /// Those along the edges of `triangles`, for `count` points.
     pub(super) fn new(triangles: &[[u32; 3]], count: usize) -> Self {
         Self::of_edges(
@@ -54,7 +54,7 @@ impl Neighbours {
 /// Smooths the points for which `is_free`, alternating the two kinds of step.
 pub(super) fn smooth(
     points: &mut [Vec3],
-    neighbours: &Neighbours,
+    neighbours: &NeighborLists,
     is_free: impl Fn(usize) -> bool,
     steps: usize,
 ) {

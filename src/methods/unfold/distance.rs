@@ -120,13 +120,13 @@ impl SegmentDistances {
 /// The way from the place `y` of the second of two segments to the place `x` of the first, where they are
 /// nearest; places run from 0 to 1 along a segment.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Nearest {
+pub(super) struct NearestSegment {
     pub(super) x: f64,
     pub(super) y: f64,
     pub(super) way: Vec3,
 }
 
-impl Nearest {
+impl NearestSegment {
     fn distance(&self) -> f64 {
         self.way.norm()
     }
@@ -136,7 +136,7 @@ impl Nearest {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contact {
     pub(super) segments: [usize; 2],
-    pub(super) nearest: Nearest,
+    pub(super) nearest: NearestSegment,
 }
 
 /// What [`SegmentDistances::at_vertices`] finds.
@@ -147,7 +147,7 @@ pub(super) struct Clearances {
 }
 
 /// Where segment `i` of the closed polygon is nearest to segment `j`.
-fn nearest(points: &[Vec3], i: usize, j: usize) -> Nearest {
+fn nearest(points: &[Vec3], i: usize, j: usize) -> NearestSegment {
     let m = points.len();
     let (p, q) = (&points[i], &points[(i + 1) % m]);
     let (r, s) = (&points[j], &points[(j + 1) % m]);
@@ -173,12 +173,12 @@ fn nearest(points: &[Vec3], i: usize, j: usize) -> Nearest {
         (share(-dw, dd), 0.0),
         (share(de - dw, dd), 1.0),
     ];
-    let mut best = (f64::INFINITY, Nearest { x, y, way: w });
+    let mut best = (f64::INFINITY, NearestSegment { x, y, way: w });
     for (x, y) in places {
         let way = w + d * x - e * y;
         let distance_sq = way.norm_squared();
         if distance_sq < best.0 {
-            best = (distance_sq, Nearest { x, y, way });
+            best = (distance_sq, NearestSegment { x, y, way });
         }
     }
     best.1

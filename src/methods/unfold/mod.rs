@@ -22,6 +22,8 @@ use crate::fair::laplacian::Weights;
 use crate::math::Vec3;
 use crate::math::sparse::SpdSolver;
 use crate::patch::PatchSurface;
+use crate::patch::chords::split_joined_chords;
+use crate::patch::mesh::PatchMesh;
 use crate::triangulate::planar::triangulate_planar_region;
 use curve::unfold;
 
@@ -105,43 +107,10 @@ fn embed(task: &Task<'_>) -> Result<PatchSurface> {
             .map(|t| t.map(|position| hole.polygon[position as usize]))
             .collect(),
     };
-    split_joined_chords(task, &mut surface)?;
+    task.job.ask()?;
+    let rim_count = surface.rim_count;
+    let mut mesh = PatchMesh::new(surface.triangles, rim_count, rim_count)?;
+    split_joined_chords(&mut mesh, &mut surface.points, hole);
+    surface.triangles = mesh.triangles().to_vec();
     Ok(surface)
-}
-
-/// Splits the edges between two rim vertices that the mesh joins already, other than those of the rim.
-fn split_joined_chords(task: &Task<'_>, surface: &mut PatchSurface) -> Result<()> {
-    let mut t = 0;
-    while t < surface.triangles.len() {
-        task.job.tick(150)?;
-        for k in 0..3 {
-            let [a, b, c] = rotated(surface.triangles[t], k);
-            if (a.max(b) as usize) >= surface.rim_count || !task.hole.is_joined(a, b) {
-                continue;
-            }
-            let opposite = (t + 1..surface.triangles.len()).find_map(|u| {
-                let other = surface.triangles[u];
-                (0..3)
-                    .map(|l| rotated(other, l))
-                    .find(|o| o[0] == b && o[1] == a)
-                    .map(|o| (u, o[2]))
-            });
-            // Without a triangle on the other side it is an edge of the rim, or was split from there.
-            let Some((u, d)) = opposite else { continue };
-            let middle = surface.points.len() as u32;
-            let point = (surface.points[a as usize] + surface.points[b as usize]) / 2.0;
-            surface.points.push(point);
-            surface.triangles[t] = [a, middle, c];
-            surface.triangles[u] = [b, middle, d];
-            surface.triangles.push([middle, b, c]);
-            surface.triangles.push([middle, a, d]);
-            break;
-        }
-        t += 1;
-    }
-    Ok(())
-}
-
-fn rotated(t: [u32; 3], k: usize) -> [u32; 3] {
-    [t[k], t[(k + 1) % 3], t[(k + 2) % 3]]
 }

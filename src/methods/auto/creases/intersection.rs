@@ -74,7 +74,7 @@ fn common_point(surfaces: [&dyn Implicit; 2], start: Vec3, limit: f64) -> Option
 }
 
 /// A curve to find.
-pub(crate) struct Curve<'a> {
+pub(crate) struct IntersectionCurve<'a> {
     pub(crate) surfaces: [&'a dyn Implicit; 2],
     pub(crate) ends: [Vec3; 2],
     /// The direction in which it leaves its first end, if known.
@@ -83,7 +83,7 @@ pub(crate) struct Curve<'a> {
     pub(crate) step: f64,
 }
 
-impl Curve<'_> {
+impl IntersectionCurve<'_> {
     /// The points between the ends, evenly spread; none for ends closer than a segment and a half. `None` when
     /// the surfaces do not meet in a curve from one end to the other.
     pub(crate) fn points(&self) -> Option<Vec<Vec3>> {
@@ -219,7 +219,7 @@ mod tests {
     fn arcs_of_any_length_are_followed_and_evenly_divided() {
         let (plane, sphere) = (Plane(Vec3::z(), 0.0), Sphere(2.0));
         for angle in [0.5, 2.0, 3.0, 4.2] {
-            let curve = Curve {
+            let curve = IntersectionCurve {
                 surfaces: [&plane, &sphere],
                 ends: [on_circle(0.0), on_circle(angle)],
                 departure: Some(Vec3::y()),
@@ -239,7 +239,7 @@ mod tests {
     #[test]
     fn ends_beside_the_surfaces_are_met() {
         let planes = [Plane(Vec3::z(), 0.0), Plane(Vec3::y(), 0.0)];
-        let curve = Curve {
+        let curve = IntersectionCurve {
             surfaces: [&planes[0], &planes[1]],
             ends: [Vec3::new(0.0, 0.1, 0.0), Vec3::new(4.0, 0.0, -0.2)],
             departure: None,
@@ -253,7 +253,7 @@ mod tests {
     #[test]
     fn surfaces_that_do_not_meet_have_no_curve() {
         let planes = [Plane(Vec3::z(), 0.0), Plane(Vec3::z(), 1.0)];
-        let curve = Curve {
+        let curve = IntersectionCurve {
             surfaces: [&planes[0], &planes[1]],
             ends: [Vec3::zeros(), 5.0 * Vec3::x()],
             departure: Some(Vec3::x()),

@@ -13,7 +13,7 @@
 //! Exponential in the number of ends, which therefore is limited. Not guaranteed: that the shortest creases are those
 //! that were there.
 
-use super::intersection::{Curve, corner};
+use super::intersection::{IntersectionCurve, corner};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::Vec3;
 use crate::methods::auto::creases::detect::Regions;
@@ -75,12 +75,16 @@ pub(crate) fn partition(
         middle,
         diameter,
     };
-    let first = regions.ends.iter().map(|end| Arc {
+    let first = regions.ends.iter().map(|end| RimArc {
         region: regions.at_rim[end.position],
         start: hole.points[hole.polygon[end.position] as usize],
     });
     let mut plans = Vec::new();
-    search.extend(&first.collect::<Vec<_>>(), &Plan::default(), &mut plans);
+    search.extend(
+        &first.collect::<Vec<_>>(),
+        &PartitionPlan::default(),
+        &mut plans,
+    );
     plans.sort_by(|a, b| a.length.total_cmp(&b.length));
     for plan in plans.iter().take(MOST_TRIALS) {
         if let Some(partition) = Builder::new(hole, regions, surfaces, step).build(plan) {
@@ -103,13 +107,13 @@ enum Move {
 }
 
 #[derive(Clone, Debug, Default)]
-struct Plan {
+struct PartitionPlan {
     moves: Vec<Move>,
     /// Of all creases, if they were straight.
     length: f64,
 }
 
-impl Plan {
+impl PartitionPlan {
     fn with(&self, step: Move, length: f64) -> Self {
         let mut plan = self.clone();
         plan.moves.push(step);
@@ -120,7 +124,7 @@ impl Plan {
 
 /// A stretch of one region; it ends where the next one starts.
 #[derive(Clone, Copy)]
-struct Arc {
+struct RimArc {
     region: u32,
     start: Vec3,
 }
@@ -133,7 +137,7 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// Adds all ways to finish the plan.
-    fn extend(&self, arcs: &[Arc], plan: &Plan, plans: &mut Vec<Plan>) {
+    fn extend(&self, arcs: &[RimArc], plan: &PartitionPlan, plans: &mut Vec<PartitionPlan>) {
         let len = arcs.len();
         if len < 2 {
             return;
@@ -163,7 +167,7 @@ impl Search<'_> {
         }
     }
 
-    fn corner(&self, arcs: [Arc; 3], ends: [Vec3; 2]) -> Option<Vec3> {
+    fn corner(&self, arcs: [RimArc; 3], ends: [Vec3; 2]) -> Option<Vec3> {
         let surfaces = arcs.map(|arc| self.surfaces[arc.region as usize]);
         let start = (ends[0] + ends[1] + self.middle) / 3.0;
         corner(surfaces, start, LONGEST_STEP * self.diameter)
@@ -179,7 +183,7 @@ fn remove_arc_and_next<T>(arcs: &mut Vec<T>, i: usize) {
 }
 
 /// An arc with the vertices from its start to its end.
-struct Chain {
+struct CreaseChain {
     region: u32,
     vertices: Vec<u32>,
 }
@@ -191,7 +195,7 @@ struct Builder<'a> {
     step: f64,
     /// Direction into the hole at each crease's end, with the vertex.
     departures: Vec<(u32, Vec3)>,
-    chains: Vec<Chain>,
+    chains: Vec<CreaseChain>,
     partition: Partition,
 }
 
@@ -208,7 +212,7 @@ impl<'a> Builder<'a> {
             let to = ends[(k + 1) % ends.len()].position;
             let count = (to + polygon.len() - from) % polygon.len();
             let vertices = (from..=from + count).map(|i| polygon[i % polygon.len()]);
-            Chain {
+            CreaseChain {
                 region: regions.at_rim[from],
                 vertices: vertices.collect(),
             }
@@ -230,7 +234,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn build(mut self, plan: &Plan) -> Option<Partition> {
+    fn build(mut self, plan: &PartitionPlan) -> Option<Partition> {
         for step in &plan.moves {
             match *step {
                 Move::Close(i) => self.close(i)?,
@@ -321,7 +325,7 @@ impl<'a> Builder<'a> {
             return None;
         }
         let departure = self.departures.iter().find(|d| d.0 == ends[0]);
-        let curve = Curve {
+        let curve = IntersectionCurve {
             surfaces: regions.map(|r| self.surfaces[r as usize]),
             ends: positions,
             departure: departure.map(|d| d.1),

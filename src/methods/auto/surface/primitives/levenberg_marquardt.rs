@@ -27,7 +27,7 @@ const SETTLED_FALL: f64 = 1e-8;
 const LONGEST_STEP: f64 = 2.0;
 
 /// A primitive and its sum of squares.
-pub(super) struct Progress<P> {
+pub(super) struct FitProgress<P> {
     pub(super) cost: f64,
     pub(super) primitive: P,
 }
@@ -37,7 +37,7 @@ pub(super) fn improve<const D: usize, P: Primitive<D>>(
     start: P,
     samples: &[Sample],
     steps: usize,
-) -> Option<Progress<P>> {
+) -> Option<FitProgress<P>> {
     let mut primitive = start;
     let mut cost = cost_of(&primitive, samples);
     if !cost.is_finite() {
@@ -74,7 +74,7 @@ pub(super) fn improve<const D: usize, P: Primitive<D>>(
             break;
         }
     }
-    Some(Progress { cost, primitive })
+    Some(FitProgress { cost, primitive })
 }
 
 fn cost_of<const D: usize, P: Primitive<D>>(primitive: &P, samples: &[Sample]) -> f64 {

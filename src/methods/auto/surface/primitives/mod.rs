@@ -18,7 +18,7 @@ use super::frame::{Fit, Frame, rms_distance};
 use super::{Implicit, Sample};
 use crate::math::Vec3;
 use axis::{Axis, Revolved};
-use levenberg_marquardt::{Progress, improve};
+use levenberg_marquardt::{FitProgress, improve};
 use nalgebra::SVector;
 use std::ops::Range;
 
@@ -99,12 +99,13 @@ fn fit<const D: usize, P: Primitive<D>>(samples: &[Sample]) -> Option<Fit<Fitted
     let scaled = frame.enter_all(samples);
     let follow = |starts: Vec<P>, count: usize, steps: usize| {
         let follow = |start| improve(start, &scaled, steps);
-        let mut reached: Vec<Progress<P>> = starts.into_iter().filter_map(follow).collect();
+        let mut reached: Vec<FitProgress<P>> = starts.into_iter().filter_map(follow).collect();
         reached.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         reached.truncate(count);
         reached
     };
-    let primitives = |reached: Vec<Progress<P>>| reached.into_iter().map(|r| r.primitive).collect();
+    let primitives =
+        |reached: Vec<FitProgress<P>>| reached.into_iter().map(|r| r.primitive).collect();
     let starts = primitives(follow(P::starts(&scaled), TRIALS, 0));
     let mut finalists = follow(starts, FINALISTS, TRIAL_STEPS);
     if let [first, second] = &finalists[..]

@@ -1,5 +1,13 @@
 //! One hole as plain data, and the piece of surface that closes it: what every method takes and returns.
 
+#[cfg(test)]
+mod check;
+pub(crate) mod chords;
+mod edit;
+pub(crate) mod mesh;
+#[cfg(test)]
+mod tests;
+
 use crate::math::{Vec3, cross_normal};
 
 /// A triangulated surface over the rim of a hole: what triangulation returns and refinement and

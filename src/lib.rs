@@ -41,8 +41,8 @@ mod refine;
 mod surroundings;
 mod triangulate;
 
-pub use boundary::classify::LoopClass;
-pub use boundary::loops::{BoundaryLoop, BoundaryLoops};
+pub use boundary::boundary_loop::{BoundaryLoop, LoopClass};
+pub use boundary::loops::BoundaryLoops;
 pub use boundary::select::Selection;
 pub use error::{Error, ErrorKind, Result};
 pub use fill::pipeline::fill_holes;

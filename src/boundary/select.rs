@@ -1,6 +1,7 @@
 //! Which loops to fill: rules as data.
 
-use super::loops::{BoundaryLoop, BoundaryLoops};
+use super::boundary_loop::BoundaryLoop;
+use super::loops::BoundaryLoops;
 use crate::error::{Error, ErrorKind, Result};
 
 /// Rules that choose the loops to fill. The default chooses every loop.

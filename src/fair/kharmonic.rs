@@ -22,7 +22,8 @@ use super::laplacian::{Coefficient, FairingDomain, Weights};
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::Vec3;
-use crate::math::sparse::{SpdSolver, SymmetricMatrix};
+use crate::math::sparse::SpdSolver;
+use crate::math::symmetric::SymmetricMatrix;
 use crate::patch::{PatchSurface, Surroundings};
 
 /// Order of the energy, which is the number of rings of triangles that it reads plus one.

@@ -8,8 +8,8 @@ use super::output::{write, write_indices, write_list};
 use super::status::{HOLEFILL_STATUS_INDEX_OUT_OF_RANGE, HolefillStatus};
 use super::structs::{blank, init_struct, read_struct, write_struct};
 use super::types::*;
-use crate::boundary::classify::LoopClass;
-use crate::boundary::loops::BoundaryLoop;
+use crate::boundary::boundary_loop::BoundaryLoop;
+use crate::boundary::boundary_loop::LoopClass;
 use crate::boundary::select::Selection;
 use crate::fill::session::FillSession;
 

@@ -1,10 +1,10 @@
 //! One hole cut out of the mesh: its rim, the polygon to triangulate, and the triangles round it.
 
-use crate::boundary::loops::BoundaryLoop;
+use crate::boundary::boundary_loop::BoundaryLoop;
 use crate::error::{Error, ErrorKind, Result};
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
-use crate::mesh::connectivity::target;
+use crate::mesh::halfedge::target;
 use crate::mesh::rings::{Reach, collect_rings};
 use crate::mesh::trimesh::TriMesh;
 use crate::methods::spec::HoleReach;

@@ -6,7 +6,7 @@ use super::hole::Hole;
 use super::index::MeshIndex;
 use super::report::Attempt;
 use super::verify::check_patch;
-use crate::boundary::loops::BoundaryLoop;
+use crate::boundary::boundary_loop::BoundaryLoop;
 use crate::error::{Error, ErrorKind, Result};
 use crate::job::Job;
 use crate::math::Vec3;

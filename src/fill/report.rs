@@ -1,6 +1,6 @@
 //! What happened to each hole.
 
-use crate::boundary::classify::LoopClass;
+use crate::boundary::boundary_loop::LoopClass;
 use crate::error::ErrorKind;
 use crate::methods::auto::prediction::Prediction;
 use crate::methods::method::Method;

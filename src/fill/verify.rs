@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::math::aabb::Aabb;
 use crate::math::cross_normal;
-use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD, origin, target};
+use crate::mesh::halfedge::{BOUNDARY, NON_MANIFOLD, origin, target};
 use crate::mesh::pairing::pair_halfedges;
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::PatchSurface;

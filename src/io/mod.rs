@@ -9,6 +9,7 @@
 //! place of an error, or are slow.
 
 mod atomic;
+mod mesh_data;
 mod obj;
 mod off;
 mod ply;
@@ -18,85 +19,13 @@ mod text;
 mod xyz;
 
 pub use atomic::{check_destination, is_same_destination, replace};
-pub use ply::{PlyDetails, PlyElement, PlyEncoding};
+pub use mesh_data::MeshData;
+pub use ply::details::{PlyDetails, PlyElement, PlyEncoding};
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::mesh::attributes::{AttributeValues, Attributes, ScalarType};
+use crate::mesh::attributes::Attributes;
 use std::path::Path;
 use text::parse_error;
-
-/// The contents of a mesh file.
-#[derive(Clone, Debug)]
-pub struct MeshData {
-    /// One position per vertex. Single precision is widened exactly.
-    pub positions: Vec<[f64; 3]>,
-    /// Three indices of vertices per triangle; polygons are cut into triangles by [`read`].
-    pub triangles: Vec<[u32; 3]>,
-    /// What else the file says per vertex: colors, normals, ...
-    pub vertex_attributes: Attributes,
-    /// What else the file says per triangle.
-    pub face_attributes: Attributes,
-    /// The precision of the positions in the file, [`ScalarType::F32`] or [`ScalarType::F64`]; any
-    /// other type is taken for the latter.
-    pub position_type: ScalarType,
-    /// What only a PLY file says; other formats leave it at its default.
-    pub ply: PlyDetails,
-    /// What was left out or changed on reading, one sentence each.
-    pub notes: Vec<String>,
-}
-
-impl MeshData {
-    /// A mesh in double precision without attributes.
-    #[must_use]
-    pub fn new(positions: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Self {
-        Self {
-            vertex_attributes: Attributes::new(positions.len()),
-            face_attributes: Attributes::new(triangles.len()),
-            positions,
-            triangles,
-            position_type: ScalarType::F64,
-            ply: PlyDetails::default(),
-            notes: Vec::new(),
-        }
-    }
-
-    fn check(&self) -> Result<()> {
-        let counts = [
-            ("vertex", self.vertex_attributes.len(), self.positions.len()),
-            ("face", self.face_attributes.len(), self.triangles.len()),
-        ];
-        for (element, entries, expected) in counts {
-            if entries != expected {
-                return Err(Error::invalid(format!(
-                    "the {element} attributes have {entries} entries instead of {expected}"
-                )));
-            }
-        }
-        let n = self.positions.len();
-        match self
-            .triangles
-            .iter()
-            .position(|t| t.iter().any(|&v| v as usize >= n))
-        {
-            Some(k) => Err(Error::invalid(format!(
-                "triangle {k} has a corner that is not a vertex"
-            ))),
-            None => Ok(()),
-        }
-    }
-
-    /// The red, green and blue (and alpha) columns, if they are numbers.
-    fn vertex_colors(&self) -> Option<Vec<&AttributeValues>> {
-        let numbers = |name| {
-            self.vertex_attributes
-                .get(name)
-                .filter(|values| matches!(values, AttributeValues::Scalars(_)))
-        };
-        let mut channels = vec![numbers("red")?, numbers("green")?, numbers("blue")?];
-        channels.extend(numbers("alpha"));
-        Some(channels)
-    }
-}
 
 /// A file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -285,28 +214,6 @@ fn lost_attributes(mesh: &MeshData, kept_colors: &[&str]) -> Vec<String> {
     .filter(|(_, names)| !names.is_empty())
     .map(|(what, names)| format!("{what} not written: {}", names.join(", ")))
     .collect()
-}
-
-/// Refuses positions that are finite as they are but not in single precision.
-fn check_single_precision(mesh: &MeshData) -> Result<()> {
-    let overflows = |&x: &f64| x.is_finite() && !(x as f32).is_finite();
-    match mesh.positions.iter().position(|p| p.iter().any(overflows)) {
-        Some(k) => Err(Error::invalid(format!(
-            "vertex {k} lies beyond the range of single precision"
-        ))),
-        None => Ok(()),
-    }
-}
-
-/// The number of vertices, if `u32` can number them.
-fn check_vertex_count(count: usize) -> Result<()> {
-    if count > u32::MAX as usize {
-        return Err(Error::new(
-            ErrorKind::Limit,
-            format!("{count} vertices are too many"),
-        ));
-    }
-    Ok(())
 }
 
 #[cfg(test)]

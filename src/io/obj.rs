@@ -1,8 +1,8 @@
 //! Wavefront OBJ: vertices with optional colors, and faces.
 
+use super::mesh_data::{MeshData, check_vertex_count};
 use super::polygons::Polygons;
 use super::text::{Lines, parse_error, parse_number, quoted, tokens};
-use super::{MeshData, check_vertex_count};
 use crate::error::Result;
 use crate::mesh::attributes::{AttributeValues, Attributes, ScalarType, ScalarValues};
 use std::borrow::Cow;

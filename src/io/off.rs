@@ -1,9 +1,9 @@
 //! OFF, the Geomview object file format, in text: `OFF`, `COFF`, `NOFF` and `CNOFF`.
 
+use super::mesh_data::{MeshData, check_vertex_count};
 use super::obj::unit_channel;
 use super::polygons::Polygons;
 use super::text::{Lines, parse_number, quoted, tokens};
-use super::{MeshData, check_vertex_count};
 use crate::error::Result;
 use crate::mesh::attributes::{AttributeValues, Attributes, ScalarType, ScalarValues};
 use std::io::{self, Write};

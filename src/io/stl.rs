@@ -7,8 +7,8 @@
 //!
 //! Complexity: O(n log n) in the number of triangles, by sorting their corners.
 
+use super::mesh_data::{MeshData, check_single_precision, check_vertex_count};
 use super::text::{Lines, parse_error, quoted, tokens};
-use super::{MeshData, check_single_precision, check_vertex_count};
 use crate::error::{Error, Result};
 use crate::mesh::attributes::ScalarType;
 use rayon::slice::ParallelSliceMut;

@@ -5,8 +5,8 @@
 //! normal, told apart likewise. Numbers are separated by white space, commas or semicolons; blank lines and
 //! what follows a `#` are left out.
 
+use super::mesh_data::{MeshData, check_vertex_count};
 use super::text::{Lines, parse_error, parse_number, quoted};
-use super::{MeshData, check_vertex_count};
 use crate::error::Result;
 use crate::mesh::attributes::{AttributeValues, ScalarType, ScalarValues};
 

@@ -10,7 +10,7 @@
 //! general sparse factorisation up to some thousand unknowns: there is hardly any bookkeeping.
 
 use super::Vec3;
-use super::sparse::SymmetricMatrix;
+use super::symmetric::SymmetricMatrix;
 use crate::error::Result;
 use crate::job::Job;
 

@@ -9,6 +9,7 @@ pub(crate) mod plane;
 pub(crate) mod random;
 pub(crate) mod segments;
 pub(crate) mod sparse;
+pub(crate) mod symmetric;
 
 /// A point or direction; the type that all geometry is computed in.
 pub(crate) type Vec3 = nalgebra::Vector3<f64>;

@@ -4,6 +4,7 @@
 use super::Vec3;
 use super::background::run_in_background;
 use super::envelope::Envelope;
+use super::symmetric::SymmetricMatrix;
 use crate::error::{Error, ErrorKind, Result};
 use crate::job::Job;
 use faer::linalg::solvers::SolveCore;
@@ -22,26 +23,6 @@ const WAITED_FOR: usize = 10_000;
 
 /// Added to the diagonal, relative to its mean, against loss of definiteness by rounding.
 const RELATIVE_SHIFT: f64 = 1e-12;
-
-/// The lower triangle of a symmetric matrix, column by column, with ascending rows.
-///
-/// The diagonal entry comes first in each column and must be present.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct SymmetricMatrix {
-    /// Start of each column in `rows` and `values`; one more entry than columns.
-    pub(crate) column_starts: Vec<u32>,
-    /// Row of each entry.
-    pub(crate) rows: Vec<u32>,
-    /// Value of each entry.
-    pub(crate) values: Vec<f64>,
-}
-
-impl SymmetricMatrix {
-    /// Number of rows and columns.
-    pub(crate) fn size(&self) -> usize {
-        self.column_starts.len().saturating_sub(1)
-    }
-}
 
 /// A solver that keeps the symbolic factorisation while the pattern of the matrix stays the same.
 pub(crate) struct SpdSolver<'a> {

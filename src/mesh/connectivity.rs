@@ -5,6 +5,7 @@
 //! the boundary only, which are the ones that a patch is joined to.
 
 use super::defects::MeshDefects;
+use super::halfedge::{BOUNDARY, NON_MANIFOLD, Outgoing, origin, target};
 use super::linking::link_halfedges;
 use super::rim_table::RimTable;
 use super::survey::survey;
@@ -14,22 +15,6 @@ use std::collections::BTreeMap;
 /// One part in so many is free behind the arrays of a new mesh, so that the first fills do not move them: without it
 /// closing one hole of a large mesh costs as much as moving its pages.
 pub(super) const ROOM: usize = 16;
-
-/// Link of a halfedge whose edge has one triangle.
-pub(crate) const BOUNDARY: u32 = u32::MAX;
-/// Link of a halfedge whose edge has three or more triangles.
-pub(crate) const NON_MANIFOLD: u32 = u32::MAX - 1;
-/// Link of the halfedges of a triangle that names a vertex twice; such a triangle has no neighbours.
-pub(crate) const DEGENERATE: u32 = u32::MAX - 2;
-
-/// A halfedge as seen from the vertex where it starts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Outgoing {
-    /// Vertex where the halfedge ends; `u32::MAX` in a triangle that names a vertex twice.
-    pub(crate) target: u32,
-    /// The halfedge.
-    pub(crate) halfedge: u32,
-}
 
 /// Halfedge links, and the outgoing halfedges of the vertices on the boundary.
 #[derive(Clone, Debug, Default)]
@@ -43,39 +28,6 @@ pub(crate) struct Connectivity {
     /// Outgoing halfedges of triangles that were appended after the mesh was built, at the vertices that were
     /// on the rim of what was appended with them.
     appended: BTreeMap<u32, Vec<Outgoing>>,
-}
-
-/// The next halfedge in the same triangle.
-pub(crate) fn next(halfedge: u32) -> u32 {
-    if halfedge % 3 == 2 {
-        halfedge - 2
-    } else {
-        halfedge + 1
-    }
-}
-
-/// The previous halfedge in the same triangle.
-pub(crate) fn previous(halfedge: u32) -> u32 {
-    if halfedge.is_multiple_of(3) {
-        halfedge + 2
-    } else {
-        halfedge - 1
-    }
-}
-
-/// Vertex where `halfedge` starts.
-pub(crate) fn origin(triangles: &[[u32; 3]], halfedge: u32) -> u32 {
-    triangles[halfedge as usize / 3][halfedge as usize % 3]
-}
-
-/// Vertex where `halfedge` ends.
-pub(crate) fn target(triangles: &[[u32; 3]], halfedge: u32) -> u32 {
-    origin(triangles, next(halfedge))
-}
-
-/// Whether a triangle names a vertex twice.
-pub(super) fn is_degenerate(t: &[u32; 3]) -> bool {
-    t[0] == t[1] || t[1] == t[2] || t[2] == t[0]
 }
 
 impl Connectivity {

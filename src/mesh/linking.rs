@@ -17,10 +17,10 @@
 //! its edge, so that no slot is touched by two parts. What is irregular (an edge with a third halfedge, a
 //! list that has become long) is set aside and sorted at the end.
 
-use super::connectivity::{
+use super::defects::MeshDefects;
+use super::halfedge::{
     BOUNDARY, DEGENERATE, NON_MANIFOLD, is_degenerate, origin, previous, target,
 };
-use super::defects::MeshDefects;
 use super::survey::{FACE_CHUNK, FaceChunk};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering};

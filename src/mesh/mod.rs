@@ -9,6 +9,7 @@ pub(crate) mod connectivity;
 #[cfg(test)]
 mod connectivity_oracle;
 pub(crate) mod defects;
+pub(crate) mod halfedge;
 mod linking;
 pub(crate) mod pairing;
 mod rim_table;

@@ -1,7 +1,7 @@
 //! Pairs the halfedges of the triangles of one patch or of the surroundings of one hole, whose vertices are numbered
 //! from zero; [`linking`](super::linking) does so for whole meshes.
 
-use super::connectivity::{BOUNDARY, NON_MANIFOLD, origin, target};
+use super::halfedge::{BOUNDARY, NON_MANIFOLD, origin, target};
 
 /// For each halfedge the other one of its edge, [`BOUNDARY`] where the edge has one triangle, or [`NON_MANIFOLD`]
 /// where it has three or more. All vertices are below `vertex_count`.

@@ -3,7 +3,7 @@
 //! A bit per vertex says whether it is on the boundary; counting the bits before it gives its place in
 //! compact arrays, so that the table costs little where the boundary is short.
 
-use super::connectivity::{BOUNDARY, Outgoing, is_degenerate, origin, target};
+use super::halfedge::{BOUNDARY, Outgoing, is_degenerate, origin, target};
 use super::survey::FACE_CHUNK;
 use rayon::prelude::*;
 

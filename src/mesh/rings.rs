@@ -1,6 +1,6 @@
 //! Walking round a vertex, and the rings of triangles next to a rim.
 
-use super::connectivity::{DEGENERATE, next, origin, previous};
+use super::halfedge::{DEGENERATE, next, origin, previous};
 use super::trimesh::TriMesh;
 use crate::error::Result;
 use crate::job::Job;

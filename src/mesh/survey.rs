@@ -1,8 +1,8 @@
 //! The first look at the triangles of a mesh: are the indices valid, which vertices are used, which
 //! triangles are degenerate, and which vertices each run of triangles has.
 
-use super::connectivity::is_degenerate;
 use super::defects::MeshDefects;
+use super::halfedge::is_degenerate;
 use crate::error::{Error, ErrorKind, Result};
 use rayon::prelude::*;
 use std::ops::RangeInclusive;

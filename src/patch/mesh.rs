@@ -10,7 +10,7 @@
 //! round an interior end, `O(valence)`, or else round both ends in step, `O(smaller valence)`.
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD};
+use crate::mesh::halfedge::{BOUNDARY, NON_MANIFOLD};
 use crate::mesh::pairing::pair_halfedges;
 
 /// A half-edge: three times its triangle plus its corner.

@@ -11,7 +11,7 @@
 //! still be sound: saddles, patches that bend by more than a right angle, several outlines.
 
 use crate::math::{Vec3, cross_normal};
-use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD, origin, target};
+use crate::mesh::halfedge::{BOUNDARY, NON_MANIFOLD, origin, target};
 
 /// Least cosine between the normals and the direction, 73 degrees: triangles seen edge-on prove nothing.
 const LEAST_COSINE: f64 = 0.3;

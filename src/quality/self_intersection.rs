@@ -293,7 +293,7 @@ fn tally(mut pairs: Vec<Pair>) -> SelfIntersections {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::connectivity::BOUNDARY;
+    use crate::mesh::halfedge::BOUNDARY;
     use crate::mesh::pairing::pair_halfedges;
     use proptest::prelude::*;
 

@@ -19,7 +19,7 @@ use crate::boundary::select::Selection;
 use crate::fixtures::Arrays;
 use crate::job::Job;
 use crate::math::Vec3;
-use crate::mesh::connectivity::BOUNDARY;
+use crate::mesh::halfedge::BOUNDARY;
 use crate::mesh::pairing::pair_halfedges;
 use crate::mesh::trimesh::TriMesh;
 use crate::methods::method::Method;

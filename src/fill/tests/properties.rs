@@ -1,7 +1,7 @@
 //! Random holes by every method, and random triangles.
 
 use super::{METHODS, all_but_the_largest, bits, fill, mesh_of, with_method};
-use crate::boundary::classify::LoopClass;
+use crate::boundary::boundary_loop::LoopClass;
 use crate::boundary::loops::BoundaryLoops;
 use crate::boundary::select::Selection;
 use crate::fill::pipeline::fill_holes;

@@ -4,7 +4,7 @@
 //! triangles alone, has rows of one size and is read column by column; any other row by row.
 
 use super::super::text::{Lines, parse_error, parse_number, quoted, tokens};
-use super::PlyEncoding;
+use super::details::PlyEncoding;
 use super::header::{Element, Property};
 use super::number::{Encoded, decode_count};
 use crate::error::Result;

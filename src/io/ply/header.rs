@@ -1,7 +1,7 @@
 //! The header of a PLY file: which elements follow, with which properties.
 
 use super::super::text::{Lines, parse_error, parse_number, quoted, tokens};
-use super::PlyEncoding;
+use super::details::PlyEncoding;
 use crate::error::Result;
 use crate::mesh::attributes::ScalarType;
 

@@ -1,6 +1,6 @@
 //! Numbers as the three encodings of PLY hold them.
 
-use super::PlyEncoding;
+use super::details::PlyEncoding;
 use crate::mesh::attributes::ScalarType;
 use std::fmt::Debug;
 use std::io::{self, Write};

@@ -57,18 +57,18 @@ pub enum ScalarValues {
     F64(Vec<f64>),
 }
 
-/// Evaluates `$body` with `$v` bound to the vector inside a [`ScalarValues`], whatever its type.
+/// Evaluates `$body` with `$v` bound to the vector inside a [`ScalarValues`], whatever its type. That name must be in scope.
 macro_rules! with_scalars {
     ($values:expr, $v:ident => $body:expr) => {
         match $values {
-            $crate::mesh::attributes::ScalarValues::I8($v) => $body,
-            $crate::mesh::attributes::ScalarValues::U8($v) => $body,
-            $crate::mesh::attributes::ScalarValues::I16($v) => $body,
-            $crate::mesh::attributes::ScalarValues::U16($v) => $body,
-            $crate::mesh::attributes::ScalarValues::I32($v) => $body,
-            $crate::mesh::attributes::ScalarValues::U32($v) => $body,
-            $crate::mesh::attributes::ScalarValues::F32($v) => $body,
-            $crate::mesh::attributes::ScalarValues::F64($v) => $body,
+            ScalarValues::I8($v) => $body,
+            ScalarValues::U8($v) => $body,
+            ScalarValues::I16($v) => $body,
+            ScalarValues::U16($v) => $body,
+            ScalarValues::I32($v) => $body,
+            ScalarValues::U32($v) => $body,
+            ScalarValues::F32($v) => $body,
+            ScalarValues::F64($v) => $body,
         }
     };
 }

@@ -1,6 +1,5 @@
 //! What a patch on a predicted surface must fulfill to be used.
 
-use super::march::normal;
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
@@ -139,4 +138,10 @@ fn folded_share(patch: &PatchSurface, job: &Job<'_>) -> Result<f64> {
     };
     let folded = patch.triangles.iter().filter(|t| is_folded(t)).count();
     Ok(folded as f64 / patch.triangles.len().max(1) as f64)
+}
+
+/// The unit normal of a triangle.
+pub(super) fn normal(patch: &PatchSurface, t: &[u32; 3]) -> Vec3 {
+    let [a, b, c] = t.map(|v| &patch.points[v as usize]);
+    unit(cross_normal(a, b, c))
 }

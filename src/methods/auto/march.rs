@@ -1,13 +1,13 @@
 //! Moves a patch onto a predicted surface: short Newton steps, refinement as the patch grows, a blend into the rim.
 
-use super::gates::{FOLDED, check};
+use super::gates::{FOLDED, check, normal};
 use super::surface::Implicit;
 use super::surface::project::project;
 use super::surface::tip::Tip;
 use crate::error::{Error, Result};
 use crate::fair::kharmonic::{extend_from_rim, extend_with_slope};
 use crate::math::sparse::SpdSolver;
-use crate::math::{Vec3, cross_normal, unit};
+use crate::math::{Vec3, unit};
 use crate::methods::start::refine_again;
 use crate::methods::task::Task;
 use crate::patch::PatchSurface;
@@ -207,10 +207,4 @@ impl Marcher<'_> {
         self.project(&mut projected, LAST_STEPS, limit)?;
         Ok(points.iter().zip(&projected).map(|(p, q)| p - q).collect())
     }
-}
-
-/// The unit normal of a triangle.
-pub(super) fn normal(patch: &PatchSurface, t: &[u32; 3]) -> Vec3 {
-    let [a, b, c] = t.map(|v| &patch.points[v as usize]);
-    unit(cross_normal(a, b, c))
 }

@@ -30,7 +30,7 @@ use surface::choice::Score;
 use surface::flat_rim::RimPlane;
 use surface::samples::SampledBand;
 use surface::tip::{self, Stump};
-use surface::{Implicit, choice, flat_rim};
+use surface::{Implicit, RINGS, choice, flat_rim};
 
 /// The best of many candidates.
 pub(super) const AUTO: MethodSpec = MethodSpec {
@@ -42,7 +42,7 @@ pub(super) const AUTO: MethodSpec = MethodSpec {
 /// One interpolating function, and no choice.
 pub(super) const CURVATURE: MethodSpec = MethodSpec {
     name: "curvature",
-    reach: |_| HoleReach::rings(choice::RINGS),
+    reach: |_| HoleReach::rings(RINGS),
     falls_back_to: STAIRCASE,
     farthest: FARTHEST,
     make: |task| make(task, false),

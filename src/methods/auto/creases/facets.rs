@@ -8,7 +8,7 @@
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
-use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD, origin, target};
+use crate::mesh::halfedge::{BOUNDARY, NON_MANIFOLD, origin, target};
 use crate::mesh::pairing::pair_halfedges;
 use crate::patch::HoleShape;
 

@@ -1,12 +1,11 @@
 //! The surfaces that compete to continue the known one.
 
 use super::algebraic::{AlgebraicSurface, Kind};
-use super::choice::FITTED_RINGS;
 use super::frame::Fit;
 use super::hermite_rbf::{HermiteRbf, Kernel};
 use super::primitives::{cone::Cone, cylinder::Cylinder, torus::Torus};
 use super::samples::SampledBand;
-use super::{Implicit, Sample};
+use super::{FITTED_RINGS, Implicit, Sample};
 use crate::error::Result;
 
 /// Most samples of an interpolating function that is scored, and of one that is used: the cost grows with the cube, the

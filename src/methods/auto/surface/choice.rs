@@ -14,14 +14,11 @@
 
 use super::candidates::Candidate;
 use super::samples::SampledBand;
-use super::{Implicit, project};
+use super::{FITTED_RINGS, Implicit, project};
 use crate::error::Result;
 
-/// Widest band that is left out, in rings, and that which is fitted.
+/// Widest band that is left out, in rings.
 const MOST_LEFT_OUT: u32 = 3;
-pub(crate) const FITTED_RINGS: u32 = 3;
-/// Rings of the surroundings that the choice reads.
-pub(crate) const RINGS: u32 = 9;
 /// Fewer samples than this are not fitted.
 const FEWEST_SAMPLES: usize = 20;
 /// Vertices that a prediction is compared with, at most.

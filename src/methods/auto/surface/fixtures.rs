@@ -1,6 +1,6 @@
 //! Samples of analytic surfaces for the tests.
 
-use super::choice::RINGS;
+use super::RINGS;
 use super::{Implicit, Sample};
 use crate::math::{Vec3, unit};
 use crate::patch::{HoleShape, Surroundings};

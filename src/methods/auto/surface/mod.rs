@@ -15,6 +15,11 @@ pub(crate) mod tip;
 
 use crate::math::Vec3;
 
+/// Rings of the surroundings that the choice of a surface reads.
+pub(crate) const RINGS: u32 = 9;
+/// Rings that a surface is fitted to.
+pub(crate) const FITTED_RINGS: u32 = 3;
+
 /// A point of the known surface with its normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sample {

@@ -1,7 +1,6 @@
 //! Points and normals of the known surface for fitting, few and well spread.
 
-use super::Sample;
-use super::choice::RINGS;
+use super::{RINGS, Sample};
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::Vec3;

@@ -1,7 +1,8 @@
 //! Circular cylinders.
 
 use super::axis::{Axis, Revolved, eigenvectors, inverse, scatter_of_normals, solve_symmetric};
-use super::{Fitted, Linear, Primitive, Shape, fit};
+use super::primitive::{Linear, Primitive, Shape};
+use super::{Fitted, fit};
 use crate::math::Vec3;
 use crate::methods::auto::surface::Sample;
 use crate::methods::auto::surface::frame::Fit;

@@ -3,7 +3,7 @@
 //! Small and written for its purpose: the axis of a primitive is a direction, not three free numbers, so each
 //! step is taken in coordinates round the present primitive.
 
-use super::Primitive;
+use super::primitive::Primitive;
 use crate::methods::auto::surface::Sample;
 use nalgebra::{SMatrix, SVector};
 

@@ -10,6 +10,7 @@ mod axis;
 pub(crate) mod cone;
 pub(crate) mod cylinder;
 mod levenberg_marquardt;
+mod primitive;
 #[cfg(test)]
 mod tests;
 pub(crate) mod torus;
@@ -17,9 +18,8 @@ pub(crate) mod torus;
 use super::frame::{Fit, Frame, rms_distance};
 use super::{Implicit, Sample};
 use crate::math::Vec3;
-use axis::{Axis, Revolved};
 use levenberg_marquardt::{FitProgress, improve};
-use nalgebra::SVector;
+use primitive::{Primitive, Shape};
 use std::ops::Range;
 
 /// Starts that are followed at all, those that fit best as they are, and steps spent on each before the better ones
@@ -37,47 +37,6 @@ const OTHER_MINIMUM: Range<f64> = 1.01..4.0;
 
 /// Samples per degree of freedom below which a fit means nothing.
 const SAMPLES_PER_FREEDOM: usize = 1;
-
-/// A surface with a closed formula for the distance from it.
-pub(crate) trait Shape: Copy + Send + Sync {
-    /// The distance of `p`, negative behind the surface, and its gradient, a unit vector.
-    fn distance_and_normal(&self, p: &Vec3) -> (f64, Vec3);
-}
-
-/// A surface with `D` degrees of freedom that knows where to begin.
-pub(crate) trait Primitive<const D: usize>: Shape {
-    /// Where to begin, for samples of the size one round the origin.
-    fn starts(samples: &[Sample]) -> Vec<Self>;
-
-    /// The surface after a small step in its degrees of freedom.
-    fn moved(&self, step: &SVector<f64, D>) -> Self;
-
-    /// The axis of revolution.
-    fn axis(&self) -> &Axis;
-
-    /// Distance and normal at `p`, and how fast they change with the degrees of freedom; `across` are the two
-    /// directions across the axis.
-    fn linearize(&self, across: &[Vec3; 2], p: &Vec3) -> Linear<D>;
-}
-
-/// Distance and normal of a primitive at a point, to first order in its degrees of freedom.
-pub(crate) struct Linear<const D: usize> {
-    distance: f64,
-    normal: Vec3,
-    distance_slopes: SVector<f64, D>,
-    normal_slopes: [Vec3; D],
-}
-
-impl<const D: usize> Linear<D> {
-    fn new(here: &Revolved, slopes: [(f64, Vec3); D]) -> Self {
-        Self {
-            distance: here.distance,
-            normal: here.normal,
-            distance_slopes: SVector::from_fn(|k, _| slopes[k].0),
-            normal_slopes: slopes.map(|s| s.1),
-        }
-    }
-}
 
 /// A primitive in the coordinates of the samples that it was fitted to.
 #[derive(Clone, Copy, Debug)]

@@ -6,7 +6,7 @@
 //! names it.
 //!
 //! With `L` the stiffness matrix of the Laplacian, `M` the diagonal matrix of the vertex areas and `x` the
-//! positions, the interior vertices minimise
+//! positions, the interior vertices minimize
 //!
 //! * order 1: the membrane energy `xᵀ L x`;
 //! * order 2: `|M^(-1/2) L x|²` over the interior and rim vertices, which the triangles of ring 0 join in
@@ -50,7 +50,7 @@ const USUAL_ROW: usize = 7;
 /// unchanged.
 ///
 /// # Complexity
-/// That of one sparse Cholesky factorisation in the number of interior vertices `n`: about `n^1.5`.
+/// That of one sparse Cholesky factorization in the number of interior vertices `n`: about `n^1.5`.
 pub(crate) fn fair(
     surface: &mut PatchSurface,
     surroundings: &Surroundings,
@@ -81,7 +81,7 @@ fn give_back(domain: FairingDomain, job: &Job<'_>) -> Result<()> {
 }
 
 /// Extends values given at the rim to the interior vertices, three at a time, by the harmonic function of
-/// uniform weights: each interior value is the mean of its neighbours', so none leaves the rim's range.
+/// uniform weights: each interior value is the mean of its neighbors', so none leaves the rim's range.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Solver`] when the system cannot be solved.

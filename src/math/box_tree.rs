@@ -1,8 +1,8 @@
 //! A static tree of boxes, for searches by box and by distance.
 //!
-//! Boxes are sorted by the Morton code of their centre and grouped by eight, level by level, into an
+//! Boxes are sorted by the Morton code of their center and grouped by eight, level by level, into an
 //! implicit tree: no pointers, 32 bytes a box. They are kept in single precision relative to the box of
-//! all and rounded outwards, so that a query never misses a box; it may return one that is apart by a
+//! all and rounded outward, so that a query never misses a box; it may return one that is apart by a
 //! single-precision rounding.
 //!
 //! Complexity: build O(n log n) in parallel; box query O(log n + hits) for boxes of the faces of a
@@ -29,7 +29,7 @@ struct PackedBox {
 }
 
 impl PackedBox {
-    fn centre(&self) -> [f32; 3] {
+    fn center(&self) -> [f32; 3] {
         std::array::from_fn(|k| 0.5 * self.lo[k] + 0.5 * self.hi[k])
     }
 }
@@ -202,7 +202,7 @@ impl BoxTree {
         indices()
             .map(|id| {
                 let b = frame.pack(&box_of(id));
-                ((morton(&b.centre(), axis_bits) << id_bits) | id as u64, b)
+                ((morton(&b.center(), axis_bits) << id_bits) | id as u64, b)
             })
             .unzip_into_vecs(&mut keys, &mut unsorted);
         job.ask()?;

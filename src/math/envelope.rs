@@ -1,13 +1,13 @@
-//! Cholesky factorisation within the envelope of a symmetric matrix: each row is kept from its first entry to the
+//! Cholesky factorization within the envelope of a symmetric matrix: each row is kept from its first entry to the
 //! diagonal, where all fill stays.
 //!
 //! Based on: E. Cuthill, J. McKee, "Reducing the bandwidth of sparse symmetric matrices", ACM National
 //! Conference, 1969, reversed as A. George, J. W. Liu, "Computer solution of large sparse positive definite
-//! systems", Prentice-Hall, 1981, ch. 4 recommend; the factorisation row by row as A. Jennings, "A compact storage
+//! systems", Prentice-Hall, 1981, ch. 4 recommend; the factorization row by row as A. Jennings, "A compact storage
 //! scheme for the solution of symmetric linear simultaneous equations", Computer Journal 9(3), 1966.
 //!
 //! Complexity: O(Σ w²) for rows of width w, about n² for the n interior vertices of a round patch. Faster than a
-//! general sparse factorisation up to some thousand unknowns: there is hardly any bookkeeping.
+//! general sparse factorization up to some thousand unknowns: there is hardly any bookkeeping.
 
 use super::Vec3;
 use super::symmetric::SymmetricMatrix;
@@ -27,7 +27,7 @@ pub(super) struct Envelope {
 impl Envelope {
     /// Numbers the unknowns level by level from one at the end of the longest way that is found.
     pub(super) fn new(matrix: &SymmetricMatrix) -> Self {
-        let neighbours = RowNeighbors::new(matrix);
+        let neighbors = RowNeighbors::new(matrix);
         let size = matrix.size();
         let mut order = Vec::with_capacity(size);
         let mut is_placed = vec![false; size];
@@ -37,12 +37,12 @@ impl Envelope {
             }
             // From an arbitrary unknown to one far away, and from there through the component.
             let start = order.len();
-            neighbours.walk(seed, &mut order, &mut is_placed);
+            neighbors.walk(seed, &mut order, &mut is_placed);
             let far = order[order.len() - 1];
             for v in order.drain(start..) {
                 is_placed[v as usize] = false;
             }
-            neighbours.walk(far, &mut order, &mut is_placed);
+            neighbors.walk(far, &mut order, &mut is_placed);
         }
         order.reverse();
         let mut place = vec![0; size];
@@ -52,7 +52,7 @@ impl Envelope {
         let first = (0_u32..)
             .zip(&order)
             .map(|(at, &v)| {
-                let places = neighbours.of(v).iter().map(|&u| place[u as usize]);
+                let places = neighbors.of(v).iter().map(|&u| place[u as usize]);
                 places.fold(at, u32::min)
             })
             .collect();
@@ -63,7 +63,7 @@ impl Envelope {
         }
     }
 
-    /// Multiplications that the factorisation takes, give or take a factor of two.
+    /// Multiplications that the factorization takes, give or take a factor of two.
     pub(super) fn work(&self) -> u64 {
         (0_u64..)
             .zip(&self.first)
@@ -84,7 +84,7 @@ impl Envelope {
         job: &Job<'_>,
     ) -> Result<Option<Vec<Vec3>>> {
         let mut rows = self.scatter(matrix, shift);
-        if !rows.factorise(job)? {
+        if !rows.factorize(job)? {
             return Ok(None);
         }
         let mut solution = vec![Vec3::zeros(); right_side.len()];
@@ -129,7 +129,7 @@ impl Envelope {
     }
 }
 
-/// The neighbours of each unknown in the graph of the matrix.
+/// The neighbors of each unknown in the graph of the matrix.
 struct RowNeighbors {
     starts: Vec<u32>,
     list: Vec<u32>,
@@ -196,7 +196,7 @@ struct EnvelopeRows<'a> {
 
 impl EnvelopeRows<'_> {
     /// Replaces the matrix by its factor; false when it is not positive definite.
-    fn factorise(&mut self, job: &Job<'_>) -> Result<bool> {
+    fn factorize(&mut self, job: &Job<'_>) -> Result<bool> {
         for i in 0..self.first.len() {
             let (above, row) = self.values.split_at_mut(self.starts[i]);
             let first = self.first[i] as usize;
@@ -287,7 +287,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_solution_is_that_of_the_dense_factorisation(
+        fn the_solution_is_that_of_the_dense_factorization(
             size in 1_usize..40,
             entries in prop::collection::vec((0_usize..40, 0_usize..40, -1.0..1.0f64), 0..120),
         ) {

@@ -1,4 +1,4 @@
-//! Linear least squares by a QR factorisation that takes the equations in blocks.
+//! Linear least squares by a QR factorization that takes the equations in blocks.
 //!
 //! Based on: G. H. Golub, C. F. Van Loan, "Matrix computations", 4th edition, 2013, sections 5.2 and 5.3:
 //! Householder reflections fold each block of equations into an upper triangle. The matrix is never

@@ -26,7 +26,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbouring_streams_are_not_alike() {
+    fn neighboring_streams_are_not_alike() {
         let mean = |seed: u64| {
             let total: f64 = (0..1000).map(|s| seeded(seed, s).random::<f64>()).sum();
             total / 1000.0

@@ -1,5 +1,5 @@
 //! Sparse symmetric positive definite systems: small ones are solved within their envelope, large ones by the
-//! supernodal Cholesky factorisation of `faer`.
+//! supernodal Cholesky factorization of `faer`.
 
 use super::Vec3;
 use super::background::run_in_background;
@@ -14,17 +14,17 @@ use faer::{Conj, Mat, Side};
 
 /// Systems of more unknowns than this are not worth a look at their envelope.
 const ENVELOPE_UNKNOWNS: usize = 4096;
-/// Multiplications up to which the envelope is faster than the bookkeeping of a sparse factorisation.
+/// Multiplications up to which the envelope is faster than the bookkeeping of a sparse factorization.
 const ENVELOPE_WORK: u64 = 10_000_000;
 
 /// Systems of more unknowns are solved on a thread of their own, for which nobody has to wait who wants to stop: the
-/// steps of the factorisation cannot be cancelled. Up to here each takes some milliseconds.
+/// steps of the factorization cannot be cancelled. Up to here each takes some milliseconds.
 const WAITED_FOR: usize = 10_000;
 
 /// Added to the diagonal, relative to its mean, against loss of definiteness by rounding.
 const RELATIVE_SHIFT: f64 = 1e-12;
 
-/// A solver that keeps the symbolic factorisation while the pattern of the matrix stays the same.
+/// A solver that keeps the symbolic factorization while the pattern of the matrix stays the same.
 pub(crate) struct SpdSolver<'a> {
     job: &'a Job<'a>,
     pattern: (Vec<u32>, Vec<u32>),
@@ -94,7 +94,7 @@ impl<'a> SpdSolver<'a> {
     }
 }
 
-/// Solves a large system; `known` is the symbolic factorisation of its pattern, if there is one yet.
+/// Solves a large system; `known` is the symbolic factorization of its pattern, if there is one yet.
 fn factor_and_solve(
     matrix: &SymmetricMatrix,
     known: Option<SymbolicLlt<u32>>,
@@ -108,12 +108,12 @@ fn factor_and_solve(
     let symbolic = match known {
         Some(symbolic) => symbolic,
         None => SymbolicLlt::try_new(pattern, Side::Lower)
-            .map_err(|e| failed(format!("symbolic factorisation: {e:?}")))?,
+            .map_err(|e| failed(format!("symbolic factorization: {e:?}")))?,
     };
     job.ask()?;
     let values = SparseColMatRef::new(pattern, &matrix.values[..]);
     let factor = Llt::try_new_with_symbolic(symbolic.clone(), values, Side::Lower)
-        .map_err(|e| failed(format!("factorisation of {size} unknowns: {e:?}")))?;
+        .map_err(|e| failed(format!("factorization of {size} unknowns: {e:?}")))?;
     job.ask()?;
     let mut x = Mat::from_fn(size, 3, |i, k| right_side[i][k]);
     factor.solve_in_place_with_conj(Conj::No, x.as_mut());

@@ -4,7 +4,7 @@
 pub(crate) const BOUNDARY: u32 = u32::MAX;
 /// Link of a halfedge whose edge has three or more triangles.
 pub(crate) const NON_MANIFOLD: u32 = u32::MAX - 1;
-/// Link of the halfedges of a triangle that names a vertex twice; such a triangle has no neighbours.
+/// Link of the halfedges of a triangle that names a vertex twice; such a triangle has no neighbors.
 pub(crate) const DEGENERATE: u32 = u32::MAX - 2;
 
 /// A halfedge as seen from the vertex where it starts.

@@ -1,6 +1,6 @@
 //! Links the two halfedges of every edge, in one pass over the triangles and without a hash table.
 //!
-//! Each vertex heads a list of the edges to its neighbours of higher index. A halfedge is looked up in
+//! Each vertex heads a list of the edges to its neighbors of higher index. A halfedge is looked up in
 //! the list of its lower end: it joins the halfedge that is there with the same other end, or becomes the
 //! first halfedge of a new edge. The lists need no memory of their own, because they run through the
 //! slots that hold the links in the end:

@@ -1,4 +1,4 @@
-//! Triangle meshes: indices, positions and attributes, and who is whose neighbour.
+//! Triangle meshes: indices, positions and attributes, and who is whose neighbor.
 
 #[cfg_attr(
     not(feature = "io"),

@@ -28,7 +28,7 @@ impl Reach {
 /// How a walk round a vertex came to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FanEnd {
-    /// At this halfedge, which has no neighbour.
+    /// At this halfedge, which has no neighbor.
     At(u32),
     /// Back where it began.
     Closed,

@@ -1,4 +1,4 @@
-//! The methods: each makes a patch from the shape of a hole, whatever happens to the patch afterwards.
+//! The methods: each makes a patch from the shape of a hole, whatever happens to the patch afterward.
 //!
 //! A method is its file or folder here and its line in the list below. The file has a [`MethodSpec`], which says all
 //! that the rest of the library knows of the method; `docs/methods/adding.md` shows how to add one.

@@ -19,7 +19,7 @@ pub(crate) struct MethodSpec {
     pub(crate) farthest: f64,
     /// Whether the method needs a rim that bounds a disk which no other rim pierces.
     pub(crate) needs_unlinked_rim: bool,
-    /// Makes the patch, in the hole's coordinates. It is verified afterwards.
+    /// Makes the patch, in the hole's coordinates. It is verified afterward.
     pub(crate) make: fn(&Task<'_>) -> Result<PatchSurface>,
     /// How the method itself extends attribute values into its patch, if it does.
     pub(crate) extension: Option<Extension>,

@@ -112,7 +112,7 @@ pub(super) fn sizes_at_rim(task: &Task<'_>, surface: &PatchSurface) -> Result<Ve
 }
 
 /// Refines a patch of this hole whose vertices have moved. `sizes` holds the target edge length of each of its
-/// vertices, and does so afterwards.
+/// vertices, and does so afterward.
 ///
 /// # Errors
 /// Those of refinement; [`crate::ErrorKind::Cancelled`].

@@ -18,7 +18,7 @@
 //! triangles lie in one plane, and overlap there, has a tolerance: points computed to lie in a
 //! plane never do exactly.
 //!
-//! Neighbours in a flat patch whose planes differ by 1e-9 of their extent are thus told apart as exactly as any
+//! Neighbors in a flat patch whose planes differ by 1e-9 of their extent are thus told apart as exactly as any
 //! others; tests that snap small volumes to zero call some of them crossing.
 //!
 //! Not guaranteed: triangles without area (see [`has_area`]) cross nothing.
@@ -27,7 +27,7 @@ use crate::math::{Vec3, cross_normal, unit};
 use robust::{Coord3D, orient3d};
 
 /// Distance, relative to the larger triangle, within which two triangles lie in one plane. Far
-/// above the rounding of a computed point (2^-52) and far below any modelled gap.
+/// above the rounding of a computed point (2^-52) and far below any modeled gap.
 pub(super) const COPLANAR: f64 = 1e-9;
 
 /// Double area over the squared extent below which the normal of a triangle is mere rounding.

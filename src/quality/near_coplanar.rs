@@ -144,7 +144,7 @@ fn exact_volumes_have_their_signs() {
 }
 
 #[test]
-fn neighbours_in_a_flat_patch_do_not_intersect() {
+fn neighbors_in_a_flat_patch_do_not_intersect() {
     for (t, u) in PAIRS {
         assert!(!intersects_exactly(t, u), "{t:?} {u:?}");
         let (t, u) = (t.map(Vec3::from), u.map(Vec3::from));

@@ -122,9 +122,9 @@ fn is_simple(outline: &[Vec3], view: &Vec3) -> bool {
             .take_while(|t| t.lo[0] <= s.hi[0])
             .all(|t| {
                 let apart = (s.place + count - t.place) % count;
-                let are_neighbours = apart == 1 || apart == count - 1;
+                let are_neighbors = apart == 1 || apart == count - 1;
                 let is_beside = t.lo[1] > s.hi[1] || s.lo[1] > t.hi[1];
-                are_neighbours || is_beside || lies_beside(s, t, room) || lies_beside(t, s, room)
+                are_neighbors || is_beside || lies_beside(s, t, room) || lies_beside(t, s, room)
             })
     })
 }

@@ -1,6 +1,6 @@
 //! Quick proofs that two triangles of a surface do not intersect improperly.
 //!
-//! Most triangles whose boxes overlap are neighbours that lie beside each other. A plane shows it: the
+//! Most triangles whose boxes overlap are neighbors that lie beside each other. A plane shows it: the
 //! plane of a triangle, or the one that stands on it along an edge. When it passes through all vertices
 //! in common and every other corner of the second triangle lies clearly beyond it, the two touch in these
 //! vertices at most, do not fold and do not overlap, whatever the tolerances of
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_on_a_bumpy_sheet_are_cleared() {
+    fn neighbors_on_a_bumpy_sheet_are_cleared() {
         const N: u32 = 12;
         let at = |i: u32, j: u32| j * N + i;
         let point = |v: u32| {
@@ -173,8 +173,8 @@ mod tests {
         let clears =
             |t: &[u32; 3], u: &[u32; 3]| Separator::new(*t, t.map(point)).clears(u, &u.map(point));
         for t in &triangles {
-            let is_neighbour = |u: &&[u32; 3]| *u != t && u.iter().any(|v| t.contains(v));
-            for u in triangles.iter().filter(is_neighbour) {
+            let is_neighbor = |u: &&[u32; 3]| *u != t && u.iter().any(|v| t.contains(v));
+            for u in triangles.iter().filter(is_neighbor) {
                 assert!(clears(t, u) || clears(u, t), "{t:?} {u:?}");
             }
             assert!(!clears(t, t), "the same triangle");

@@ -11,7 +11,7 @@
 //! circle first, as long as triangles stay within the limit; those of few edges also where the triangles do not
 //! fit in the tangent planes. What is open then is a hole, and triangles at its rim must be smaller.
 //!
-//! Complexity: O(n k) for n points with k neighbours, O(n log n) to sort.
+//! Complexity: O(n k) for n points with k neighbors, O(n log n) to sort.
 
 use super::cloud::{Cloud, NearestPoints, for_all};
 use super::gaps;
@@ -25,13 +25,13 @@ use rayon::prelude::*;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Most neighbours that a star is made from where the nearest ones do not reach as far as the limit.
-const MOST_NEIGHBOURS: usize = 200;
+/// Most neighbors that a star is made from where the nearest ones do not reach as far as the limit.
+const MOST_NEIGHBORS: usize = 200;
 
 /// Chooses the triangles.
 pub(super) struct Assembler<'a> {
     pub(super) cloud: &'a Cloud,
-    pub(super) neighbours: &'a NearestPoints,
+    pub(super) neighbors: &'a NearestPoints,
     /// `None` for points without a normal.
     pub(super) tangents: &'a [Option<Tangent>],
     /// The largest radius of a triangle's circle, if the caller gave it, in the cloud's unit.
@@ -71,7 +71,7 @@ impl Assembler<'_> {
     /// `Cancelled` when the caller asked to stop.
     pub(super) fn run(&self) -> Result<Assembled> {
         let near = for_all(self.cloud.len(), self.job, |v| {
-            self.star(v, self.neighbours.of(v))
+            self.star(v, self.neighbors.of(v))
         })?;
         let limits = self.limits(&near)?;
         let stars = for_all(self.cloud.len(), self.job, |v| {
@@ -105,7 +105,7 @@ impl Assembler<'_> {
             let radii = sectors.map(|[a, b]| self.radius([v, a, b]));
             radii.filter(|r| r.is_finite()).collect()
         })?;
-        limits(self.cloud, self.neighbours, &radii, self.job)
+        limits(self.cloud, self.neighbors, &radii, self.job)
     }
 
     fn radius(&self, corners: [u32; 3]) -> f64 {
@@ -129,7 +129,7 @@ impl Assembler<'_> {
     /// The sectors of the star of `v` within the limit; the star is made anew among more points if those that
     /// it was made from may have missed one.
     fn choice(&self, v: u32, star: &Star, limit: f64) -> Vec<[u32; 2]> {
-        let near = self.neighbours.of(v);
+        let near = self.neighbors.of(v);
         let within = |star: &Star| -> Vec<[u32; 2]> {
             let sectors = star.sectors();
             sectors
@@ -140,7 +140,7 @@ impl Assembler<'_> {
         let reached = near.last().map_or(0.0, |&w| {
             (self.cloud.points[w as usize] - self.cloud.points[v as usize]).norm()
         });
-        // A circle through the centre reaches as far as its diameter; a gap may be closed by any point within
+        // A circle through the center reaches as far as its diameter; a gap may be closed by any point within
         // that of the limit.
         let largest = chosen
             .iter()
@@ -154,7 +154,7 @@ impl Assembler<'_> {
         if needed <= reached || near.len() + 1 >= self.cloud.len() {
             return chosen;
         }
-        let wider = self.cloud.within(v, needed, MOST_NEIGHBOURS);
+        let wider = self.cloud.within(v, needed, MOST_NEIGHBORS);
         if wider.len() <= near.len() {
             return chosen;
         }
@@ -220,7 +220,7 @@ impl Assembler<'_> {
     ) {
         let mut thirds: Vec<u32> = [a, b]
             .iter()
-            .flat_map(|&v| self.neighbours.of(v))
+            .flat_map(|&v| self.neighbors.of(v))
             .copied()
             .filter(|&c| c != a && c != b && !surface.is_surrounded(c))
             .collect();

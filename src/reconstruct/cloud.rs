@@ -1,8 +1,8 @@
-//! The distinct points of a cloud, in coordinates of its own, with their nearest neighbours.
+//! The distinct points of a cloud, in coordinates of its own, with their nearest neighbors.
 //!
-//! Neighbours come from an R*-tree (the crate `rstar`), bulk loaded. Equal distances are ordered by index.
+//! Neighbors come from an R*-tree (the crate `rstar`), bulk loaded. Equal distances are ordered by index.
 //!
-//! Complexity: O(n log n) to build; O(k log n) for k neighbours.
+//! Complexity: O(n log n) to build; O(k log n) for k neighbors.
 
 use crate::error::{Error, Result};
 use crate::job::Job;
@@ -92,7 +92,7 @@ impl Cloud {
         self.in_order(v, others.take(most).collect())
     }
 
-    /// The `count` nearest neighbours of every point.
+    /// The `count` nearest neighbors of every point.
     ///
     /// # Errors
     /// [`ErrorKind::Cancelled`] when the job is stopped.
@@ -120,7 +120,7 @@ pub(super) struct NearestPoints {
 }
 
 impl NearestPoints {
-    /// The neighbours of `v`, nearest first.
+    /// The neighbors of `v`, nearest first.
     pub(super) fn of(&self, v: u32) -> &[u32] {
         &self.flat[v as usize * self.count..][..self.count]
     }

@@ -1,7 +1,7 @@
 //! Small holes between samples that are left when every triangle has been tried that fits in the tangent planes.
 //!
 //! Such a hole has few edges and triangles within the limit close it, but in some corner's tangent plane they
-//! overlap their neighbours, as where noise or a crease tilts the plane. What counts here is the connectivity,
+//! overlap their neighbors, as where noise or a crease tilts the plane. What counts here is the connectivity,
 //! and that the triangles face the same side as their corners.
 //!
 //! Complexity: linear in the boundary.

@@ -3,7 +3,7 @@
 //! Every triangle has input points as corners, and the surface ends where there are no samples: what the
 //! scanner missed stays open, for hole filling. The steps, a file each:
 //!
-//! 1. `cloud`: distinct points and their nearest neighbours;
+//! 1. `cloud`: distinct points and their nearest neighbors;
 //! 2. `normals`, `orientation`: the tangent plane of each point, with consistent sides;
 //! 3. `star`, in the plane of `tangent`: the triangles that each point chooses;
 //! 4. `reach`: how large a triangle may be;
@@ -45,8 +45,8 @@ use tangent::Tangent;
 const FEWEST_POINTS: usize = 4;
 /// Spread across over spread along below which all points together count as a line.
 const LINE_SPREAD: f64 = 1e-9;
-/// NearestPoints that a star is made from, by default; their number and range in [`PointOptions::neighbours`].
-const NEIGHBOURS: usize = 24;
+/// NearestPoints that a star is made from, by default; their number and range in [`PointOptions::neighbors`].
+const NEIGHBORS: usize = 24;
 
 /// Points to make a mesh from.
 #[derive(Clone, Debug, Default)]
@@ -78,7 +78,7 @@ impl PointCloud {
 pub struct PointOptions {
     /// The largest radius of the circle through the corners of a triangle, in units of the positions; holes
     /// that such a circle passes through stay open. `None` (the default) takes 3 times the median of the
-    /// neighbourhood, see `docs/methods/points.md`.
+    /// neighborhood, see `docs/methods/points.md`.
     pub radius: Option<f64>,
     /// How many of the nearest points each point chooses its triangles from, from 6 to 200; default 24.
     pub neighbours: usize,
@@ -88,7 +88,7 @@ impl Default for PointOptions {
     fn default() -> Self {
         Self {
             radius: None,
-            neighbours: NEIGHBOURS,
+            neighbours: NEIGHBORS,
         }
     }
 }
@@ -139,7 +139,7 @@ pub struct PointReport {
 ///
 /// The vertices are the points, all of them, in their order, with the bits of their positions and attributes;
 /// points that no triangle uses stay as isolated vertices. No edge has more than two triangles, no vertex more
-/// than one fan, and neighbouring triangles run along their common edge in opposite directions. Triangles are
+/// than one fan, and neighboring triangles run along their common edge in opposite directions. Triangles are
 /// in ascending order of their lowest vertex. Holes stay open.
 ///
 /// With normals, triangles face where these point. Without, each piece faces away from its middle; a flat
@@ -154,7 +154,7 @@ pub struct PointReport {
 /// points, points on a line, and when no triangle can be made; [`ErrorKind::Cancelled`] when stopped.
 ///
 /// # Complexity
-/// O(n log n) time and O(n) memory, about 1 kB for each point, at a given number of neighbours.
+/// O(n log n) time and O(n) memory, about 1 kB for each point, at a given number of neighbors.
 pub fn mesh_from_points(
     cloud: PointCloud,
     options: &PointOptions,
@@ -181,14 +181,14 @@ pub(crate) fn reconstruct(
     let distinct = Cloud::new(&cloud.positions)?;
     check_spread(&distinct)?;
 
-    let neighbours = distinct.all_nearest(options.neighbours, job)?;
+    let neighbors = distinct.all_nearest(options.neighbours, job)?;
     let known: Vec<Option<Vec3>> = distinct
         .sources
         .iter()
         .map(|&v| known_normal(cloud.normals.as_deref(), v))
         .collect();
-    let mut normals = normals::estimate(&distinct, &neighbours, &known, job)?;
-    orientation::agree(&distinct, &neighbours, &mut normals, &known, job)?;
+    let mut normals = normals::estimate(&distinct, &neighbors, &known, job)?;
+    orientation::agree(&distinct, &neighbors, &mut normals, &known, job)?;
     let tangents: Vec<Option<Tangent>> = distinct
         .points
         .iter()
@@ -197,7 +197,7 @@ pub(crate) fn reconstruct(
         .collect();
     let assembled = Assembler {
         cloud: &distinct,
-        neighbours: &neighbours,
+        neighbors: &neighbors,
         tangents: &tangents,
         radius: options.radius.map(|r| r * distinct.scale),
         job,
@@ -208,9 +208,9 @@ pub(crate) fn reconstruct(
     if triangles.is_empty() {
         return Err(geometry(match options.radius {
             Some(radius) => {
-                format!("no three neighbouring points fit on a circle of radius {radius}")
+                format!("no three neighboring points fit on a circle of radius {radius}")
             }
-            None => "no three neighbouring points make a triangle".to_owned(),
+            None => "no three neighboring points make a triangle".to_owned(),
         }));
     }
     if known.iter().all(Option::is_none) {

@@ -2,10 +2,10 @@
 //!
 //! Based on H. Hoppe, T. DeRose, T. Duchamp, J. McDonald, W. Stuetzle, Surface reconstruction from
 //! unorganized points, SIGGRAPH 1992, section 3.1: the eigenvector of the smallest eigenvalue of the
-//! covariance of the neighbours. Where the nearest points lie along a line, as on a scan line, they say
+//! covariance of the neighbors. Where the nearest points lie along a line, as on a scan line, they say
 //! nothing about the plane, and more of them are taken.
 //!
-//! Complexity: O(k) per point for k neighbours. Across a crease the normal is a mean of both sides.
+//! Complexity: O(k) per point for k neighbors. Across a crease the normal is a mean of both sides.
 
 use super::cloud::{Cloud, NearestPoints, for_all};
 use crate::error::Result;
@@ -14,10 +14,10 @@ use crate::math::Vec3;
 use nalgebra::{Matrix3, SymmetricEigen};
 
 /// NearestPoints that determine a normal.
-pub(super) const NORMAL_NEIGHBOURS: usize = 12;
-/// A neighbourhood counts as a line where its spread across is less than this share of that along it.
+pub(super) const NORMAL_NEIGHBORS: usize = 12;
+/// A neighborhood counts as a line where its spread across is less than this share of that along it.
 const LINE_SPREAD: f64 = 0.15;
-/// How many times as many neighbours are tried where the nearest ones are a line.
+/// How many times as many neighbors are tried where the nearest ones are a line.
 const WIDER: [usize; 2] = [2, 4];
 
 /// Unit normals: the `known` ones, else estimated, of either sign; zero where the points near are on a line.
@@ -26,7 +26,7 @@ const WIDER: [usize; 2] = [2, 4];
 /// `Cancelled` when the job is stopped.
 pub(super) fn estimate(
     cloud: &Cloud,
-    neighbours: &NearestPoints,
+    neighbors: &NearestPoints,
     known: &[Option<Vec3>],
     job: &Job<'_>,
 ) -> Result<Vec<Vec3>> {
@@ -34,14 +34,14 @@ pub(super) fn estimate(
         if let Some(normal) = known[v as usize] {
             return normal;
         }
-        let near = neighbours.of(v);
-        let first = spread(cloud, v, &near[..near.len().min(NORMAL_NEIGHBOURS)]);
+        let near = neighbors.of(v);
+        let first = spread(cloud, v, &near[..near.len().min(NORMAL_NEIGHBORS)]);
         if !first.is_line() {
             return first.normal();
         }
         let mut best = first;
         for factor in WIDER {
-            let wider = spread(cloud, v, &cloud.nearest(v, factor * NORMAL_NEIGHBOURS));
+            let wider = spread(cloud, v, &cloud.nearest(v, factor * NORMAL_NEIGHBORS));
             best = wider;
             if !best.is_line() {
                 break;
@@ -51,7 +51,7 @@ pub(super) fn estimate(
     })
 }
 
-/// The principal directions of a neighbourhood, by ascending variance.
+/// The principal directions of a neighborhood, by ascending variance.
 struct Spread {
     variances: [f64; 3],
     across: Vec3,

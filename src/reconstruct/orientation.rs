@@ -1,7 +1,7 @@
-//! Signs for normals, so that neighbours agree on the side of the surface.
+//! Signs for normals, so that neighbors agree on the side of the surface.
 //!
 //! Based on H. Hoppe et al., Surface reconstruction from unorganized points, SIGGRAPH 1992, section 3.3: the
-//! signs are propagated along a minimum spanning tree of the graph of nearest neighbours. How normals are
+//! signs are propagated along a minimum spanning tree of the graph of nearest neighbors. How normals are
 //! compared follows H. Xie et al., Piecewise C1 continuous surface reconstruction of noisy point clouds via
 //! local implicit quadric regression, IEEE Visualization 2003: between two points on a circular arc one normal
 //! is the mirror image of the other in the plane halfway between, so that the mirror image tells the sign, also
@@ -9,7 +9,7 @@
 //!
 //! The tree is Kruskal's, over sets that keep their members' signs relative to each other.
 //!
-//! Complexity: O(n k log n) for k neighbours. Where surfaces nearly touch, the sign can be wrong.
+//! Complexity: O(n k log n) for k neighbors. Where surfaces nearly touch, the sign can be wrong.
 
 use super::cloud::{Cloud, NearestPoints};
 use crate::error::Result;
@@ -18,16 +18,16 @@ use crate::math::Vec3;
 use rayon::prelude::*;
 
 /// NearestPoints that a sign is passed on to.
-const SIGN_NEIGHBOURS: usize = 10;
+const SIGN_NEIGHBORS: usize = 10;
 
-/// Turns the normals that are not `known` so that neighbours agree. Known ones keep their sign and decide
+/// Turns the normals that are not `known` so that neighbors agree. Known ones keep their sign and decide
 /// that of their surroundings; a part of the graph without any takes the sign of its first point.
 ///
 /// # Errors
 /// `Cancelled` when the job is stopped.
 pub(super) fn agree(
     cloud: &Cloud,
-    neighbours: &NearestPoints,
+    neighbors: &NearestPoints,
     normals: &mut [Vec3],
     known: &[Option<Vec3>],
     job: &Job<'_>,
@@ -35,10 +35,10 @@ pub(super) fn agree(
     let mut edges: Vec<Edge> = (0..cloud.len() as u32)
         .into_par_iter()
         .flat_map_iter(|v| {
-            let near = neighbours.of(v);
-            let near = &near[..near.len().min(SIGN_NEIGHBOURS)];
+            let near = neighbors.of(v);
+            let near = &near[..near.len().min(SIGN_NEIGHBORS)];
             // An edge that both ends list is taken once.
-            let is_mine = move |w: u32| v < w || !listed(neighbours, w, v);
+            let is_mine = move |w: u32| v < w || !listed(neighbors, w, v);
             let normals = &*normals;
             near.iter()
                 .filter(move |&&w| is_mine(w))
@@ -72,12 +72,8 @@ pub(super) fn agree(
     Ok(())
 }
 
-fn listed(neighbours: &NearestPoints, v: u32, w: u32) -> bool {
-    neighbours
-        .of(v)
-        .iter()
-        .take(SIGN_NEIGHBOURS)
-        .any(|&x| x == w)
+fn listed(neighbors: &NearestPoints, v: u32, w: u32) -> bool {
+    neighbors.of(v).iter().take(SIGN_NEIGHBORS).any(|&x| x == w)
 }
 
 struct Edge {

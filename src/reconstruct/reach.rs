@@ -3,14 +3,14 @@
 //! The measure is the radius of the circle through a triangle's corners. On a sampled surface the circles of
 //! the Delaunay triangles are empty, so that their radii tell how far apart samples are in the widest
 //! direction, also where the spacing depends on the direction; across a hole they are as large as the hole.
-//! A point's limit is a multiple of the median radius in its neighbourhood; medians leave out the large
+//! A point's limit is a multiple of the median radius in its neighborhood; medians leave out the large
 //! triangles beside a hole.
 //!
 //! The limit closes a gap only if all of it is closed: triangles beside what stays open must be smaller, see
 //! [`RIM_SHARE`]. Between the two lie the triangles that a sparse spot needs, and those with which a hole would
 //! be nibbled at.
 //!
-//! Complexity: O(k) per point for k neighbours.
+//! Complexity: O(k) per point for k neighbors.
 
 use super::cloud::{Cloud, NearestPoints, for_all};
 use crate::error::Result;
@@ -39,20 +39,20 @@ pub(super) fn circumradius([a, b, c]: [Vec3; 3]) -> f64 {
 
 /// The limit at each point, from the finite `radii` of the triangles at each.
 ///
-/// Where a neighbourhood has no triangle, that of all points is taken.
+/// Where a neighborhood has no triangle, that of all points is taken.
 ///
 /// # Errors
 /// `Cancelled` when the job is stopped.
 pub(super) fn limits(
     cloud: &Cloud,
-    neighbours: &NearestPoints,
+    neighbors: &NearestPoints,
     radii: &[Vec<f64>],
     job: &Job<'_>,
 ) -> Result<Vec<f64>> {
     let medians: Vec<Option<f64>> = radii.iter().map(|r| median(r.clone())).collect();
     let overall = median(medians.iter().flatten().copied().collect()).unwrap_or(0.0);
     for_all(cloud.len(), job, |v| {
-        let near = neighbours.of(v).iter().chain(std::iter::once(&v));
+        let near = neighbors.of(v).iter().chain(std::iter::once(&v));
         let near = near.filter_map(|&w| medians[w as usize]);
         LIMIT_OVER_MEDIAN * median(near.collect()).unwrap_or(overall)
     })

@@ -110,7 +110,7 @@ impl<'a> GrowingSurface<'a> {
                 .all(|arc| arcs.iter().any(|next| next[0] == arc[1]))
     }
 
-    /// Takes triangles away from the boundary inwards, as long as `excess` is positive for them, the largest
+    /// Takes triangles away from the boundary inward, as long as `excess` is positive for them, the largest
     /// first; a triangle stays if a corner has no other. Returns how many.
     pub(super) fn peel(&mut self, excess: impl Fn([u32; 3]) -> f64) -> usize {
         let mut removed = 0;

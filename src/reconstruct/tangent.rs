@@ -1,6 +1,6 @@
 //! The tangent plane of a point, and what is decided in it.
 //!
-//! A neighbour is turned into the plane: it keeps its distance and its direction round the normal, as in
+//! A neighbor is turned into the plane: it keeps its distance and its direction round the normal, as in
 //! M. Gopi, S. Krishnan, C. Silva, Surface reconstruction based on lower dimensional localized Delaunay
 //! triangulation, Eurographics 2000, section 4.1, so that a curved surface is not compressed.
 //! Decisions in the plane are exact for the coordinates in it (the crate `robust`).
@@ -8,7 +8,7 @@
 use crate::math::Vec3;
 use robust::Coord;
 
-/// The largest slope of the line to a neighbour against the tangent plane, as a tangent: 60°. Steeper lines
+/// The largest slope of the line to a neighbor against the tangent plane, as a tangent: 60°. Steeper lines
 /// lead to another sheet.
 const STEEPEST: f64 = 1.732;
 

@@ -439,14 +439,14 @@ fn any_points() -> impl Strategy<Value = Vec<Point>> {
         prop::collection::vec(prop::array::uniform3(-1.0..1.0), 1..8),
         0_u64..99,
     )
-        .prop_map(|(centres, seed): (Vec<Point>, u64)| {
+        .prop_map(|(centers, seed): (Vec<Point>, u64)| {
             let mut noise = Noise(seed);
             let near = |c: &Point| -> Vec<Point> {
                 (0..9)
                     .map(|_| c.map(|c| c + 1e-9 * noise.signed()))
                     .collect()
             };
-            centres.iter().flat_map(near).collect()
+            centers.iter().flat_map(near).collect()
         });
     prop_oneof![lattice, anywhere, flat, clusters]
 }

@@ -202,7 +202,7 @@ impl SizeField {
         self.depths.push(depth);
     }
 
-    /// Measures the depth of an interior vertex anew, given the distances to its neighbours.
+    /// Measures the depth of an interior vertex anew, given the distances to its neighbors.
     pub(super) fn measure_depth(&mut self, v: u32, ring: impl Iterator<Item = (u32, f64)>) {
         let base = self.base(v);
         let depth = ring
@@ -236,10 +236,10 @@ fn distances_from_rim(
         while let Some(v) = waiting.pop_front() {
             job.tick(3)?;
             queued[v as usize] = false;
-            let neighbours = mesh
+            let neighbors = mesh
                 .corners(v)
                 .flat_map(|h| [mesh.target(h), mesh.origin(prev(h))]);
-            for u in neighbours.map(|u| u as usize) {
+            for u in neighbors.map(|u| u as usize) {
                 let depth = depths[v as usize] + (points[u] - points[v as usize]).norm();
                 if depth < depths[u] {
                     depths[u] = depth;

@@ -1,4 +1,4 @@
-//! Delaunay edge flips, driven by a stack of edges whose neighbourhood changed.
+//! Delaunay edge flips, driven by a stack of edges whose neighborhood changed.
 //!
 //! An edge is flipped when the two angles opposite to it sum to more than π: the empty-circle test,
 //! in a form that needs no plane.

@@ -26,7 +26,7 @@ use crate::patch::PatchSurface;
 use crate::patch::mesh::{Halfedge, PatchMesh, next, prev};
 use std::cmp::Reverse;
 
-/// Each pass at least halves the longest edges' excess, give or take neighbours that exclude each
+/// Each pass at least halves the longest edges' excess, give or take neighbors that exclude each
 /// other; only inputs on which splitting makes no headway come near this.
 const MAX_PASSES: usize = 128;
 
@@ -107,7 +107,7 @@ pub(crate) struct RefineReport {
 /// that is at least as long and above [`HOLDING`].
 ///
 /// `sizes` holds the target edge length of each rim vertex or of each vertex, and of each vertex
-/// afterwards. `blocked(a, b)` says that the mesh round the patch has an edge between the rim
+/// afterward. `blocked(a, b)` says that the mesh round the patch has an edge between the rim
 /// vertices `a` and `b`, which therefore must not appear in the patch. Meant to be called again
 /// after the points moved: a patch that is still fine costs a few looks at every edge and the final
 /// relaxations. Rim vertices keep their numbers; interior ones do too unless a patch of more than

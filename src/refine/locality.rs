@@ -1,9 +1,9 @@
-//! Numbers interior vertices and triangles along a space-filling curve, so that neighbours in the
-//! patch are neighbours in memory.
+//! Numbers interior vertices and triangles along a space-filling curve, so that neighbors in the
+//! patch are neighbors in memory.
 //!
 //! Based on: G. M. Morton, "A computer oriented geodetic data base and a new technique in file
 //! sequencing", IBM, 1966. Splitting appends each generation of vertices behind the last; on a patch
-//! of a million triangles every look at a neighbour then misses the cache, which costs a factor of
+//! of a million triangles every look at a neighbor then misses the cache, which costs a factor of
 //! four. `O(n log n)` for the sort. Nothing but numbers changes.
 
 use super::density::SizeField;

@@ -1,5 +1,5 @@
 //! Tangential relaxation: moves an interior vertex toward the centroid of its one-ring, within its
-//! tangent plane, never through a neighbouring edge.
+//! tangent plane, never through a neighboring edge.
 //!
 //! The centroid weighs each triangle by its area over its squared target edge length, so that at
 //! rest every triangle has the area that its size asks for. With uniform sizes this is the
@@ -32,7 +32,7 @@ struct Ring {
     /// Sum and minimum of the lengths of the normals.
     total: f64,
     smallest: f64,
-    /// Greatest squared distance of a neighbour.
+    /// Greatest squared distance of a neighbor.
     reach: f64,
 }
 
@@ -52,10 +52,10 @@ pub(super) fn relax(mesh: &PatchMesh, points: &mut [Vec3], sizes: &mut SizeField
     }
     points[v as usize] = target;
     if sizes.is_graded() {
-        let neighbours = mesh.corners(v).map(|h| mesh.target(h));
+        let neighbors = mesh.corners(v).map(|h| mesh.target(h));
         sizes.measure_depth(
             v,
-            neighbours.map(|u| (u, (points[u as usize] - target).norm())),
+            neighbors.map(|u| (u, (points[u as usize] - target).norm())),
         );
     }
     step.norm() / size
@@ -116,7 +116,7 @@ impl Ring {
     }
 }
 
-/// The way towards the centroid, in the tangent plane, as far as no triangle gets too small.
+/// The way toward the centroid, in the tangent plane, as far as no triangle gets too small.
 fn limited_step(
     ring: &Ring,
     mesh: &PatchMesh,

@@ -4,7 +4,7 @@
 //! until few enough positions are left for a better method. The cost is the radius of the ear's
 //! circumscribed circle, or the length of the new edge if that is more: ears as in a Delaunay triangulation
 //! go first and those along a densely sampled, almost straight rim last. It is raised when the ear turns away from its two known
-//! neighbours, and more when it does not face like the rim round the hole, where it may fold over.
+//! neighbors, and more when it does not face like the rim round the hole, where it may fold over.
 //! The known ideas of ear clipping are combined here; no paper is followed.
 //!
 //! Time O(m log m), memory O(m).
@@ -173,14 +173,14 @@ impl<'a> Clipper<'a> {
             job.tick(30)?;
             self.cut(entry.position);
             left -= 1;
-            for neighbour in [before, after] {
-                self.queue.extend(self.entry(neighbour).map(Reverse));
+            for neighbor in [before, after] {
+                self.queue.extend(self.entry(neighbor).map(Reverse));
             }
         }
         Ok(())
     }
 
-    /// Cuts the ear at `position` and makes its neighbours' places in the queue stale.
+    /// Cuts the ear at `position` and makes its neighbors' places in the queue stale.
     fn cut(&mut self, position: u32) {
         let i = position as usize;
         let (before, after) = (self.previous[i], self.next[i]);

@@ -197,7 +197,7 @@ fn solve(
                     ),
                     outside: if closing { outside(j) } else { NO_NORMAL },
                 };
-                // The neighbouring chords' winners are likely to be good: they set a low bound.
+                // The neighboring chords' winners are likely to be good: they set a low bound.
                 let likely = [
                     column.apex[i + 1] as usize,
                     table.apex[inner.end - 1] as usize,
@@ -281,8 +281,8 @@ impl Candidates<'_> {
         }
         let doubled_area = doubled_area_sq.sqrt();
         let normal = doubled / doubled_area;
-        for neighbour in [&self.left.2[k], &self.right.2[k], &self.outside] {
-            let distance_sq = (normal - neighbour).norm_squared();
+        for neighbor in [&self.left.2[k], &self.right.2[k], &self.outside] {
+            let distance_sq = (normal - neighbor).norm_squared();
             if distance_sq > measure {
                 measure = distance_sq;
             }
@@ -300,7 +300,7 @@ impl Candidates<'_> {
     }
 }
 
-/// Lists the winning triangles `(i, k, j)`, `i < k < j`, from the closing edge inwards.
+/// Lists the winning triangles `(i, k, j)`, `i < k < j`, from the closing edge inward.
 fn trace(table: &WeightTable) -> Vec<[u32; 3]> {
     let mut triangles = Vec::with_capacity(table.len - 2);
     let mut chords = vec![(0, table.len - 1)];

@@ -100,7 +100,7 @@ pub(crate) fn triangulate_planar_region(
     Ok(triangles)
 }
 
-/// The triangles inside the rim, found inwards from its edges, which have it on their left. Vertices have the numbers of their insertion.
+/// The triangles inside the rim, found inward from its edges, which have it on their left. Vertices have the numbers of their insertion.
 fn inner_triangles(
     delaunay: &Delaunay,
     edges: &[(FixedVertexHandle, FixedVertexHandle)],

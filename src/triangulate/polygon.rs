@@ -181,7 +181,7 @@ impl<'a> ChordRules<'a> {
         rules
     }
 
-    /// Whether the chord between positions `i` and `j`, which are not neighbours, may be created.
+    /// Whether the chord between positions `i` and `j`, which are not neighbors, may be created.
     pub(super) fn admit(&self, i: usize, j: usize) -> bool {
         self.polygon.vertex_ids[i] != self.polygon.vertex_ids[j]
             && self
@@ -202,7 +202,7 @@ impl<'a> ChordRules<'a> {
     }
 }
 
-/// What the minimum-weight triangulation minimises, in lexicographic order.
+/// What the minimum-weight triangulation minimizes, in lexicographic order.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub(crate) struct Weight {
     /// Largest angle in radians between the normals of two triangles that share an edge, the known

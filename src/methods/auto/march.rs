@@ -173,7 +173,7 @@ impl Marcher<'_> {
         Ok(())
     }
 
-    /// Adds to the interior what the rim is off the surface, extended inwards.
+    /// Adds to the interior what the rim is off the surface, extended inward.
     fn blend(&self, patch: &mut PatchSurface, limit: f64) -> Result<()> {
         let rim_count = patch.rim_count;
         if patch.points.len() == rim_count {

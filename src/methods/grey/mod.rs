@@ -28,7 +28,7 @@ pub(super) const GREY: MethodSpec = MethodSpec {
     ..MethodSpec::USUAL
 };
 
-/// Rings of known triangles that are read: those that six steps outwards pass.
+/// Rings of known triangles that are read: those that six steps outward pass.
 const RING_COUNT: u32 = 7;
 
 /// Known angles that a series needs: with fewer, the two coefficients of the model are not determined.
@@ -91,15 +91,15 @@ fn continued(section: &Prepared, known: &[Vec<Known>; 2]) -> Vec<Vec3> {
         .collect()
 }
 
-/// The angles by which the known surface turns from step to step in the section plane, inwards: the last one is that
+/// The angles by which the known surface turns from step to step in the section plane, inward: the last one is that
 /// up to the rim at `end`, where the tangent has the direction `tangent`.
 fn turns(section: &Prepared, end: [f64; 2], tangent: f64, known: &[Known]) -> Vec<f64> {
     let mut last = section.origin + section.x * end[0] + section.y * end[1];
     let mut directions = vec![tangent];
     for place in known {
         let along = place.normal.cross(&section.ahead);
-        let inwards = along.dot(&(last - place.point)).signum() * along;
-        directions.push(inwards.dot(&section.y).atan2(inwards.dot(&section.x)));
+        let inward = along.dot(&(last - place.point)).signum() * along;
+        directions.push(inward.dot(&section.y).atan2(inward.dot(&section.x)));
         last = place.point;
     }
     directions

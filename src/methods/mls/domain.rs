@@ -27,7 +27,7 @@ pub(crate) enum Domain {
         axes: Matrix3<f64>,
     },
     /// Central projection onto a sphere, with coordinates of equal area round the pole; the height is the
-    /// distance from the centre.
+    /// distance from the center.
     Sphere {
         center: Vec3,
         radius: f64,
@@ -65,7 +65,7 @@ impl Domain {
     }
 
     /// The sphere whose radial lines fit the normals of the vicinity's triangles best: with the centroids `x`
-    /// of the triangles and their normals `n`, the centre `c` and the signed radius `r` minimise
+    /// of the triangles and their normals `n`, the center `c` and the signed radius `r` minimize
     /// the sum of `area · |x - c - r n|²`. The pole lies in the direction that the patch faces.
     ///
     /// # Errors
@@ -111,7 +111,7 @@ impl Domain {
         let across = Vec3::ith(pole.iamin(), 1.0);
         let mut axes = axes(across - pole * pole.dot(&across), pole);
         if radius < 0.0 {
-            // Seen from the centre, on which side the patch faces then, the sense of turning is the other one.
+            // Seen from the center, on which side the patch faces then, the sense of turning is the other one.
             axes.row_mut(1).neg_mut();
         }
         Ok(Self::Sphere {
@@ -202,7 +202,7 @@ mod tests {
     use proptest::prelude::*;
 
     /// A band of a sphere of this radius round its pole, bounded by a circle at `from` radians; triangles face
-    /// outwards, or inwards.
+    /// outward, or inward.
     fn band(radius: f64, from: f64, is_outward: bool) -> (Vicinity, Vec<Vec3>) {
         let (n, rows) = (24, 3);
         let turn = nalgebra::Rotation3::from_euler_angles(0.4, -0.9, 2.0);

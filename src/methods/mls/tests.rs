@@ -11,7 +11,7 @@ fn hole_in_grid(f: impl Fn(f64, f64) -> Vec3, n: i32, radius: f64) -> HoleShape 
         let middle = |k: i32| (f64::from(k) + 0.5) * h;
         i >= -n && i < n && j >= -n && j < n && middle(i).hypot(middle(j)) > radius
     };
-    // The cells' edges towards the hole, with the hole on the left.
+    // The cells' edges toward the hole, with the hole on the left.
     let mut next = std::collections::BTreeMap::new();
     for i in -n..n {
         for j in -n..n {

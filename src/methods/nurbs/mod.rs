@@ -27,7 +27,7 @@ pub(super) const NURBS: MethodSpec = MethodSpec {
     ..MethodSpec::USUAL
 };
 
-/// Rings of known triangles that are read: those that three layers outwards pass.
+/// Rings of known triangles that are read: those that three layers outward pass.
 const RING_COUNT: u32 = 5;
 
 /// Weights of the cubic through four equidistant curves half way between the second and the third: the spline

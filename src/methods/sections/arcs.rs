@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 const FLAT: f64 = 1e-5;
 
 /// A circular arc from the origin to `(length, 0)` whose tangent at both ends makes the angle `angle` with the
-/// x axis, upwards at the start.
+/// x axis, upward at the start.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Arc {
     pub(crate) length: f64,

@@ -50,7 +50,7 @@ pub(super) fn start_of_cut(n: usize, i: usize, j: usize) -> usize {
     (sum + 1 + (1 - sum % 2)) / 2 % n
 }
 
-/// The partners of the sequence from its ends inwards. A point at which the line to its partner makes an angle
+/// The partners of the sequence from its ends inward. A point at which the line to its partner makes an angle
 /// with the rim whose sine is below `smallest_sine` is passed over, on its side only.
 pub(super) fn pairs(base: &[BasePoint], smallest_sine: f64) -> Vec<Correspondence> {
     let n = base.len();

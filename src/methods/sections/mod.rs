@@ -5,7 +5,7 @@
 //! differently, and why.
 //!
 //! Not guaranteed: that a hole can be patched. Islands, sections that cross, surfaces that leave the rim too steeply
-//! and patches that fold are refused with their reason. Two triangles that are not neighbours may intersect: whoever
+//! and patches that fold are refused with their reason. Two triangles that are not neighbors may intersect: whoever
 //! uses the patch must look.
 
 pub(crate) mod arcs;
@@ -43,10 +43,10 @@ use section::{Section, assemble, prepare};
 use smoothing::{NeighborLists, smooth};
 use std::borrow::Cow;
 
-/// Rings of known triangles that are read: two for the normals of the rim's neighbours, one more for the next ones.
+/// Rings of known triangles that are read: two for the normals of the rim's neighbors, one more for the next ones.
 pub(super) const RING_COUNT: u32 = 3;
 
-/// Neighbouring triangles that turn by more than the angle with this cosine, 120°, are a fold.
+/// Neighboring triangles that turn by more than the angle with this cosine, 120°, are a fold.
 const FOLDED: f64 = -0.5;
 
 /// Part of the predicted points that may come to lie outside the rim in the plane, where the rim is jagged.
@@ -188,8 +188,8 @@ fn finish(
     if options.smoothing {
         let triangles: Vec<[u32; 3]> = editor.triangles().collect();
         let points = editor.points_mut();
-        let neighbours = NeighborLists::new(&triangles, points.len());
-        smooth(points, &neighbours, |v| v >= m, options.smoothing_steps);
+        let neighbors = NeighborLists::new(&triangles, points.len());
+        smooth(points, &neighbors, |v| v >= m, options.smoothing_steps);
     }
     editor.collapse_short(options.shortest_edge * rim.edge_length);
     editor.swap_edges(job)?;

@@ -296,7 +296,7 @@ impl<'a> Editor<'a> {
         self.touch(g / 3);
     }
 
-    /// Swaps edges at which the patch is folded, if it is folded less afterwards.
+    /// Swaps edges at which the patch is folded, if it is folded less afterward.
     pub(super) fn unfold(&mut self, folded: f64) {
         for [a, b, c, d] in self.folds(folded) {
             let Some([h, g]) = self.sides(a, b) else {
@@ -336,7 +336,7 @@ impl<'a> Editor<'a> {
         }
     }
 
-    /// The edges at which neighbouring triangles turn by more than the angle with the cosine `folded`, each with the
+    /// The edges at which neighboring triangles turn by more than the angle with the cosine `folded`, each with the
     /// four vertices of its triangles.
     pub(super) fn folds(&self, folded: f64) -> Vec<[u32; 4]> {
         let mut folds = Vec::new();

@@ -1,4 +1,4 @@
-//! The known surface along a section, from the rim outwards: what GREY and NURBS extrapolate.
+//! The known surface along a section, from the rim outward: what GREY and NURBS extrapolate.
 //!
 //! A section plane is followed through the known triangles, from edge to edge. `O(steps)` per section, once the
 //! edges are sorted.

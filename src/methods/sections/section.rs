@@ -119,7 +119,7 @@ pub(super) fn prepare(
     Ok(sections)
 }
 
-/// The sections with their points, but for those that are not between their neighbours.
+/// The sections with their points, but for those that are not between their neighbors.
 ///
 /// # Errors
 /// [`ErrorKind::Geometry`] when most sections cross.
@@ -142,7 +142,7 @@ pub(super) fn assemble(
     Ok(sections)
 }
 
-/// Equation 11. `None` where the neighbouring pairs do not say where the section goes, or where its plane lies along
+/// Equation 11. `None` where the neighboring pairs do not say where the section goes, or where its plane lies along
 /// the surface: where the rim ends in a plane across the surface, all lines between its points are in that plane.
 fn frame(base: &[BasePoint], pair: Correspondence) -> Option<Prepared> {
     let n = base.len();
@@ -168,9 +168,9 @@ fn frame(base: &[BasePoint], pair: Correspondence) -> Option<Prepared> {
     })
 }
 
-/// The angles at which the surface leaves the section's line at its two ends, both measured upwards and inwards.
+/// The angles at which the surface leaves the section's line at its two ends, both measured upward and inward.
 fn angles(base: &[BasePoint], pair: Correspondence, frame: &Prepared) -> [Option<f64>; 2] {
-    [(pair.first, 1.0), (pair.second, -1.0)].map(|(k, inwards)| {
+    [(pair.first, 1.0), (pair.second, -1.0)].map(|(k, inward)| {
         let BasePoint { normal, .. } = base[k];
         let rim = rim_direction(base, k);
         let tangent = normal.cross(&frame.ahead);
@@ -182,7 +182,7 @@ fn angles(base: &[BasePoint], pair: Correspondence, frame: &Prepared) -> [Option
         Some(
             into_hole
                 .dot(&frame.y)
-                .atan2(inwards * into_hole.dot(&frame.x)),
+                .atan2(inward * into_hole.dot(&frame.x)),
         )
     })
 }

@@ -197,7 +197,7 @@ mod tests {
     fn the_normal_is_that_of_the_area_enclosed() {
         let positions: Vec<Vec3> = folded(0.0).iter().map(|b| b.position).collect();
         assert!((fit_plane(&positions).normal - Vec3::z()).norm() < 1e-12);
-        let backwards: Vec<Vec3> = positions.into_iter().rev().collect();
-        assert!((fit_plane(&backwards).normal + Vec3::z()).norm() < 1e-12);
+        let backward: Vec<Vec3> = positions.into_iter().rev().collect();
+        assert!((fit_plane(&backward).normal + Vec3::z()).norm() < 1e-12);
     }
 }

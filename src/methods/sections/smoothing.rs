@@ -11,7 +11,7 @@ use crate::math::Vec3;
 const LAMBDA: f64 = 0.5;
 const MU: f64 = -LAMBDA / (1.0 - 0.1 * LAMBDA);
 
-/// The neighbours of each point, one list after the other.
+/// The neighbors of each point, one list after the other.
 #[derive(Clone, Debug)]
 pub(super) struct NeighborLists {
     starts: Vec<usize>,
@@ -54,18 +54,18 @@ impl NeighborLists {
 /// Smooths the points for which `is_free`, alternating the two kinds of step.
 pub(super) fn smooth(
     points: &mut [Vec3],
-    neighbours: &NeighborLists,
+    neighbors: &NeighborLists,
     is_free: impl Fn(usize) -> bool,
     steps: usize,
 ) {
     let free: Vec<usize> = (0..points.len())
-        .filter(|&v| is_free(v) && !neighbours.of(v).is_empty())
+        .filter(|&v| is_free(v) && !neighbors.of(v).is_empty())
         .collect();
     let mut moved = vec![Vec3::zeros(); free.len()];
     for step in 0..steps {
         let factor = if step % 2 == 0 { LAMBDA } else { MU };
         for (to, &v) in moved.iter_mut().zip(&free) {
-            let around = neighbours.of(v);
+            let around = neighbors.of(v);
             let sum: Vec3 = around.iter().map(|&w| points[w as usize]).sum();
             *to = points[v] + (sum / around.len() as f64 - points[v]) * factor;
         }

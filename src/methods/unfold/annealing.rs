@@ -40,7 +40,7 @@ pub(super) struct Annealing<'a> {
 }
 
 impl<'a> Annealing<'a> {
-    /// Starts at `points`, whose mean edge length is 1 and whose segments, neighbours apart, are further than
+    /// Starts at `points`, whose mean edge length is 1 and whose segments, neighbors apart, are further than
     /// epsilon from each other.
     pub(super) fn new(points: &[Vec3], options: &'a UnfoldOptions, generator: Pcg64) -> Self {
         let mut distances = SegmentDistances::default();

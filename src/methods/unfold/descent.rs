@@ -69,7 +69,7 @@ pub(super) struct Descent {
 }
 
 impl Descent {
-    /// Starts at `points`, whose mean edge length is 1, and keeps non-neighbouring segments more than `epsilon`
+    /// Starts at `points`, whose mean edge length is 1, and keeps non-neighboring segments more than `epsilon`
     /// apart, as they must be at the start. With a generator the first steps are disturbed by it.
     pub(super) fn new(points: &[Vec3], epsilon: f64, kicks: Option<Pcg64>) -> Self {
         let m = points.len();
@@ -140,7 +140,7 @@ impl Descent {
                 *force += d * (count * inverse * inverse * inverse);
             };
             for (k, members) in runs.iter().enumerate() {
-                let d = p - members.centre;
+                let d = p - members.center;
                 if d.norm_squared() > members.far_sq {
                     add(d, members.count);
                     continue;
@@ -169,7 +169,7 @@ impl Descent {
         }
     }
 
-    /// Pulls the ends of each edge of the targets towards its length, forwards and backwards in turn.
+    /// Pulls the ends of each edge of the targets toward its length, forward and backward in turn.
     fn keep_lengths(&mut self, sweep: usize) {
         let m = self.targets.len();
         for k in 0..m {
@@ -212,7 +212,7 @@ impl Descent {
         }
     }
 
-    /// Goes to the targets, or as far towards them as the clearances allow.
+    /// Goes to the targets, or as far toward them as the clearances allow.
     fn go(&mut self) {
         let places = self.points.iter_mut().zip(&self.targets);
         for ((point, target), clearance) in places.zip(&self.clearances.distances) {
@@ -230,7 +230,7 @@ impl Descent {
 
 /// Successive vertices that act as one from far away.
 struct Run {
-    centre: Vec3,
+    center: Vec3,
     count: f64,
     /// Squared distance from which they do.
     far_sq: f64,
@@ -239,15 +239,15 @@ struct Run {
 impl Run {
     fn of(points: &[Vec3]) -> Self {
         let count = points.len() as f64;
-        let centre = points.iter().sum::<Vec3>() / count;
+        let center = points.iter().sum::<Vec3>() / count;
         let radius_sq = points
             .iter()
-            .map(|p| (p - centre).norm_squared())
+            .map(|p| (p - center).norm_squared())
             .fold(0.0, f64::max);
         Self {
-            centre,
+            center,
             count,
-            // A run is at least as large as an edge: neighbours, which do not repel each other, are near.
+            // A run is at least as large as an edge: neighbors, which do not repel each other, are near.
             far_sq: FAR * FAR * radius_sq.max(1.0),
         }
     }
@@ -303,8 +303,8 @@ mod tests {
             let mut x = given.clone();
             smooth(&mut x, strength);
             for i in 0..m {
-                let neighbours = x[(i + 1) % m] + x[(i + m - 1) % m];
-                let image = x[i] + (x[i] * 2.0 - neighbours) * strength;
+                let neighbors = x[(i + 1) % m] + x[(i + m - 1) % m];
+                let image = x[i] + (x[i] * 2.0 - neighbors) * strength;
                 assert!(
                     (image - given[i]).norm() < 1e-9 * strength.max(1.0),
                     "{m} {i}"

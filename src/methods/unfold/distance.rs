@@ -73,7 +73,7 @@ impl SegmentDistances {
         });
     }
 
-    /// Calls `visit` with every two segments, not neighbours, whose boxes are less than `reach` apart in each
+    /// Calls `visit` with every two segments, not neighbors, whose boxes are less than `reach` apart in each
     /// coordinate; it returns the reach for the rest of the search.
     fn visit_near(
         &mut self,

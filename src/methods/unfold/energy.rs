@@ -1,4 +1,4 @@
-//! How far a closed polygon is from lying in a plane: the energy that the annealing of the paper minimises.
+//! How far a closed polygon is from lying in a plane: the energy that the annealing of the paper minimizes.
 //!
 //! Based on: A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular meshes by
 //! curve unfolding", SMI 2009, section 3.1 (E_PE, d_PE, n_i).

@@ -2,7 +2,7 @@
 //!
 //! Based on: A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular meshes by
 //! curve unfolding", SMI 2009, sections 3.2 and 3.3. Unlike there, refinement works on the embedded patch and
-//! again on its final shape, and both energies are minimised exactly, by one sparse system each.
+//! again on its final shape, and both energies are minimized exactly, by one sparse system each.
 
 mod annealing;
 pub(crate) mod curve;

@@ -32,7 +32,7 @@ fn trefoil(m: usize) -> Vec<Vec3> {
         .collect()
 }
 
-/// A circle deformed by random smooth motions towards a small ball, none of which lets it cross itself.
+/// A circle deformed by random smooth motions toward a small ball, none of which lets it cross itself.
 fn tangle(m: usize, motions: usize, seed: u64) -> Vec<Vec3> {
     let mut points = circle(m);
     let mut generator = seeded(seed, 99);
@@ -83,7 +83,7 @@ fn strip(m: usize, turns: f64) -> Vec<Vec3> {
 }
 
 /// The distance of two segments by a method of its own: that of a point of the first to the second is a convex
-/// function of the place, minimised by golden sections.
+/// function of the place, minimized by golden sections.
 fn distance_slow(points: &[Vec3], i: usize, j: usize) -> f64 {
     let m = points.len();
     let (p, q, r, s) = (

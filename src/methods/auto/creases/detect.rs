@@ -1,6 +1,6 @@
 //! Which smooth pieces of the known surface surround a hole, and where the creases between them meet its rim.
 //!
-//! Two neighbouring triangles belong to one region when the angle between their normals is small; regions are the
+//! Two neighboring triangles belong to one region when the angle between their normals is small; regions are the
 //! connected sets of such triangles. Small means below an angle that no finely triangulated smooth surface shows,
 //! and below a multiple of what is usual round this hole: coarse or noisy surfaces have no creases but those that
 //! stand out. What is left of a crease after that must look like one: regions of some size on both sides, a line
@@ -82,7 +82,7 @@ pub(crate) fn detect(hole: &HoleShape, job: &Job<'_>) -> Result<Option<Regions>>
     }
     let known: Option<Vec<u32>> = at_rim.into_iter().collect();
     let Some(at_rim) = known.filter(|_| hole.polygon.len() == hole.points.len()) else {
-        return unusable("the rim has islands or triangles without a neighbour");
+        return unusable("the rim has islands or triangles without a neighbor");
     };
     labels.join_across_wedges(&facets, hole, &at_rim, threshold);
     let at_rim: Vec<u32> = at_rim.iter().map(|&f| labels.of_face[f as usize]).collect();
@@ -222,7 +222,7 @@ impl Labels {
         }
     }
 
-    /// Joins regions at the rim that are too small to be one with the neighbour that they are bent least against.
+    /// Joins regions at the rim that are too small to be one with the neighbor that they are bent least against.
     fn absorb_small_regions(&mut self, facets: &Facets<'_>, at_rim: &[Option<u32>]) {
         // Each round removes a region.
         for _ in 0..at_rim.len() {

@@ -1,7 +1,7 @@
 //! The known triangles round a hole: who meets whom in which edge, and normals from which noise is filtered.
 //!
 //! Normals are filtered by Y. Zheng, H. Fu, O. K.-C. Au, C.-L. Tai, "Bilateral normal filtering for mesh
-//! denoising", IEEE TVCG 17(10), 2011 (the local, iterative scheme), which averages them over neighbours whose
+//! denoising", IEEE TVCG 17(10), 2011 (the local, iterative scheme), which averages them over neighbors whose
 //! normals are alike and so keeps creases. The width of "alike" follows from the normals themselves: a clean mesh is
 //! left as it is.
 
@@ -15,7 +15,7 @@ use crate::patch::HoleShape;
 /// Rounds of filtering.
 const ROUNDS: usize = 6;
 
-/// Width of the filter in units of the median difference between the normals of neighbours, and at most: beyond
+/// Width of the filter in units of the median difference between the normals of neighbors, and at most: beyond
 /// that it would average over creases.
 const WIDTH_FACTOR: f64 = 2.0;
 const MOST_WIDTH: f64 = 0.35;
@@ -103,7 +103,7 @@ impl<'a> Facets<'a> {
         self.angle_between(edge.faces)
     }
 
-    /// The same for triangles that need not be neighbours.
+    /// The same for triangles that need not be neighbors.
     pub(super) fn angle_between(&self, faces: [u32; 2]) -> f64 {
         let [n, m] = faces.map(|f| self.normals[f as usize]);
         2.0 * (0.5 * (n - m).norm()).min(1.0).asin()

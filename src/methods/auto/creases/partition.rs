@@ -3,7 +3,7 @@
 //! The rim is a cycle of arcs, each of one region, between the ends of creases. Two moves shorten it:
 //!
 //! * *close* an arc between two arcs of one region, by the crease from one of its ends to the other;
-//! * let the creases at the ends of an arc meet in the *corner* that its region has with its two neighbours, from
+//! * let the creases at the ends of an arc meet in the *corner* that its region has with its two neighbors, from
 //!   where the crease between these goes on.
 //!
 //! Two arcs that are left are separated by one crease. All orders of moves are tried and the one with the shortest
@@ -35,7 +35,7 @@ const SAME_CORNER: f64 = 0.5;
 /// A corner closer than this to a vertex of the rim would make triangles without area; in the same unit.
 const RIM_DISTANCE: f64 = 0.05;
 
-/// Longest Newton step towards a corner, in diameters of the rim.
+/// Longest Newton step toward a corner, in diameters of the rim.
 const LONGEST_STEP: f64 = 0.25;
 
 /// A hole cut into faces.

@@ -8,7 +8,7 @@
 //! * cyclide: those of the quadric and `|x|² x, |x|² y, |x|² z, |x|⁴`. All quadrics, tori and Dupin cyclides are
 //!   Darboux cyclides (G. Darboux, "Sur une classe remarquable de courbes et de surfaces algébriques", 1873).
 //!
-//! Coefficients minimise `Σ f(p)² + |∇f(p) - n|²` over the samples `(p, n)`, in coordinates in which these have
+//! Coefficients minimize `Σ f(p)² + |∇f(p) - n|²` over the samples `(p, n)`, in coordinates in which these have
 //! the size one. The gradient conditions, as in I. Macêdo, J. P. Gois, L. Velho, "Hermite radial basis functions
 //! implicits", CGF 30(1), 2011, rule out the trivial solution and keep `f` from vanishing elsewhere. Since no
 //! torus has gradients of one length, and few quadrics, the gradients are asked above all to point along the

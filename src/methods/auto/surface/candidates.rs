@@ -153,7 +153,7 @@ impl Candidate {
         self.fit_to(samples, vertices, rings)
     }
 
-    /// Fits the surface to the vertices, smoothed over so many rings of neighbours.
+    /// Fits the surface to the vertices, smoothed over so many rings of neighbors.
     fn fit_to(
         self,
         samples: &mut SampledBand,

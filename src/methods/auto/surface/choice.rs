@@ -7,7 +7,7 @@
 //! simplest wins.
 //!
 //! Leave-one-out choice of models goes back to M. Stone, "Cross-validatory choice and assessment of statistical
-//! predictions", Journal of the Royal Statistical Society B 36(2), 1974; leaving out bands towards the hole measures
+//! predictions", Journal of the Royal Statistical Society B 36(2), 1974; leaving out bands toward the hole measures
 //! extrapolation, which is what a hole asks for.
 //!
 //! Not guaranteed: that what predicts three rings well predicts the middle of a hole that is much wider.

@@ -4,7 +4,7 @@
 //! (Hermite-Birkhoff interpolation by conditionally positive definite functions), as used for surfaces by
 //! I. Macêdo, J. P. Gois, L. Velho, "Hermite radial basis functions implicits", Computer Graphics Forum 30(1), 2011.
 //!
-//! With the kernel `φ(r) = r³` or `r⁵`, the centres `x_i` and their normals `n_i`,
+//! With the kernel `φ(r) = r³` or `r⁵`, the centers `x_i` and their normals `n_i`,
 //!
 //! `f(x) = Σ a_i φ(|x - x_i|) - Σ b_i · ∇φ(|x - x_i|) + Σ c_j B_j(x)`,
 //!
@@ -12,7 +12,7 @@
 //! `b` annihilate all `B_j`, make a symmetric system of `4n + 10` unknowns. The surface with `f = 0` continues the
 //! points with the least bending that the kernel knows; quadrics are reproduced exactly, because of `B`.
 //!
-//! Fitting costs `O(n³)`, a value `O(n)`. Not guaranteed: that `f = 0` is a single sheet away from the centres.
+//! Fitting costs `O(n³)`, a value `O(n)`. Not guaranteed: that `f = 0` is a single sheet away from the centers.
 
 use super::{Implicit, Sample};
 use crate::math::Vec3;

@@ -11,25 +11,25 @@ use std::ops::Range;
 /// Samples closer to each other than this share of the rim's edge length make systems ill-conditioned.
 const CLOSEST: f64 = 0.2;
 /// Noise, in rim edge lengths, from which on normals come from smoothing fits as well, and from which on these take
-/// four rings of neighbours instead of three. Triangulations of smooth surfaces show 0 to 0.01, scans of detailed
+/// four rings of neighbors instead of three. Triangulations of smooth surfaces show 0 to 0.01, scans of detailed
 /// models 0.01 to 0.06, a sphere with noise of one percent of its size 0.05 to 0.08, with five percent 0.2 to 0.4.
 pub(crate) const NOISY: f64 = 0.04;
 const VERY_NOISY: f64 = 0.15;
-/// Rings of neighbours of smoothing fits.
+/// Rings of neighbors of smoothing fits.
 const SMOOTHING_RINGS: [usize; 2] = [3, 4];
 /// Holes with at least so many rim edges and so much detail round them, in rim edge lengths, are continued from smoothed
 /// points: what is much narrower than the hole foretells nothing of its middle. On 61 such holes cut out of nine models
 /// patches come 4 % nearer. Less detail is little to smooth, and may be a coarse triangulation.
 const FEWEST_EDGES: usize = 200;
 const DETAILED: f64 = 0.005;
-/// The rings of neighbours that smoothing fits read there: one for so many rim edges, but no more than this share of the
+/// The rings of neighbors that smoothing fits read there: one for so many rim edges, but no more than this share of the
 /// hole's width in rim edges, nor than the surroundings have. Fewer than smooth noise are not worth it: then the hole is a
 /// slit, whose two sides show the detail between them. On 48 slits of 200 to 350 edges patches are 8 to 28 % further off
 /// with the number of edges as the only measure, and with the width too as near as without smoothing, or 2 % nearer.
 const EDGES_PER_SMOOTHING_RING: f64 = 45.0;
 const SHARE_OF_WIDTH: f64 = 1.0 / 3.0;
 const MOST_SMOOTHING_RINGS: f64 = RINGS as f64;
-/// The noise is read from rings up to this one: further out fits would miss neighbours.
+/// The noise is read from rings up to this one: further out fits would miss neighbors.
 const LAST_NOISE_LEVEL: u32 = 7;
 
 /// The known surface round a hole, read on demand.
@@ -47,7 +47,7 @@ pub(crate) struct SampledBand<'a> {
     /// Vertices found by [`Self::spread`] for ranges of levels, and how many were asked for.
     spreads: Vec<(Range<u32>, usize, Vec<u32>)>,
     normals: Vec<Option<Vec3>>,
-    /// Rings of neighbours and what fits over them gave.
+    /// Rings of neighbors and what fits over them gave.
     smoothed: Vec<Option<(usize, Sample)>>,
     pub(crate) job: &'a Job<'a>,
 }
@@ -88,12 +88,12 @@ impl<'a> SampledBand<'a> {
         self.rings_over_detail().is_some()
     }
 
-    /// Rings of neighbours of fits that smooth noise.
+    /// Rings of neighbors of fits that smooth noise.
     pub(crate) fn rings_over_noise(&self) -> usize {
         SMOOTHING_RINGS[usize::from(self.noise > VERY_NOISY)]
     }
 
-    /// Rings of neighbours of fits that smooth detail where it is misleading: at least those that smooth noise.
+    /// Rings of neighbors of fits that smooth detail where it is misleading: at least those that smooth noise.
     pub(crate) fn rings_over_detail(&self) -> Option<usize> {
         let by_edges = (self.rim_edges as f64 / EDGES_PER_SMOOTHING_RING).round();
         let by_width = (self.width * SHARE_OF_WIDTH).round();
@@ -120,7 +120,7 @@ impl<'a> SampledBand<'a> {
         }
     }
 
-    /// The vertex moved onto a smooth surface through so many rings of neighbours, and the normal of that.
+    /// The vertex moved onto a smooth surface through so many rings of neighbors, and the normal of that.
     pub(crate) fn smoothed_sample(&mut self, vertex: u32, rings: usize) -> Sample {
         let v = vertex as usize;
         if let Some((known, sample)) = self.smoothed[v]

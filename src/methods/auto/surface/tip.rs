@@ -19,7 +19,7 @@ const STEEP: f64 = 60.0 * std::f64::consts::PI / 180.0;
 const FLAT: f64 = 0.5;
 /// Edges of the rim, fewer than this: the end of something wide is no tip.
 const SMALL: usize = 80;
-/// Mean component of the normals towards the hole, at least: 0 is a tube of constant width, which has no tip to grow.
+/// Mean component of the normals toward the hole, at least: 0 is a tube of constant width, which has no tip to grow.
 const CONVERGING: f64 = 0.08;
 
 /// A surface that closes is used when its score is within this factor of the best of all but [`TOO_FREE`]: the rings
@@ -52,7 +52,7 @@ pub(crate) struct Stump {
     /// The centroid of the rim.
     center: Vec3,
     /// Unit vector across the rim's plane, away from the surroundings.
-    onwards: Vec3,
+    onward: Vec3,
 }
 
 /// A missing tip on the surface that closes it.
@@ -69,7 +69,7 @@ const LEAST_HEIGHT: f64 = 0.5;
 impl Stump {
     /// The tip that the surface puts on the stump, if it has one up to `reach` above a rim of the diameter.
     pub(crate) fn tip_on(&self, surface: &dyn Implicit, diameter: f64, reach: f64) -> Option<Tip> {
-        let height = way_out(surface, &self.center, &self.onwards, reach)?;
+        let height = way_out(surface, &self.center, &self.onward, reach)?;
         (height > LEAST_HEIGHT * diameter).then_some(Tip {
             stump: *self,
             height,
@@ -80,8 +80,8 @@ impl Stump {
 impl Tip {
     /// Where a point goes that is to be at this share of the way up to the apex; higher ones stay.
     pub(crate) fn raised(&self, p: &Vec3, share: f64) -> Vec3 {
-        let present = (p - self.stump.center).dot(&self.stump.onwards);
-        p + f64::max(share * self.height - present, 0.0) * self.stump.onwards
+        let present = (p - self.stump.center).dot(&self.stump.onward);
+        p + f64::max(share * self.height - present, 0.0) * self.stump.onward
     }
 }
 
@@ -122,10 +122,10 @@ pub(crate) fn find_stump(hole: &HoleShape, band: &Band) -> Option<Stump> {
         .map(|n| n.dot(&axis).abs().min(1.0).acos())
         .sum::<f64>()
         / count;
-    let onwards = axis * (center - behind).dot(&axis).signum();
-    let lean = normals.iter().map(|n| n.dot(&onwards)).sum::<f64>() / count;
+    let onward = axis * (center - behind).dot(&axis).signum();
+    let lean = normals.iter().map(|n| n.dot(&onward)).sum::<f64>() / count;
     let is_stump = angle > STEEP
         && eigen.eigenvalues[across] < FLAT * FLAT * eigen.eigenvalues.max()
         && lean > CONVERGING;
-    is_stump.then_some(Stump { center, onwards })
+    is_stump.then_some(Stump { center, onward })
 }

@@ -16,7 +16,7 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    /// Where `p` is: its height over the origin, its distance, and the unit vector from the axis towards it.
+    /// Where `p` is: its height over the origin, its distance, and the unit vector from the axis toward it.
     pub(super) fn locate(&self, p: &Vec3) -> (f64, f64, Vec3) {
         let arm = p - self.origin;
         let height = arm.dot(&self.direction);
@@ -136,7 +136,7 @@ pub(super) fn solve_symmetric(matrix: Matrix3<f64>, target: &Vec3) -> Vec3 {
 ///
 /// Based on: H. Pottmann, T. Randrup, "Rotational and helical surface approximation for reverse engineering",
 /// Computing 60, 1998: all normals of such a surface meet its axis, so that a velocity field `v(x) = c̄ + c × x`
-/// has `v·n = c̄·n + c·(x × n) = 0`; `Σ (v·n)²` is minimised with `|c| = 1`. `None` when the samples do not
+/// has `v·n = c̄·n + c·(x × n) = 0`; `Σ (v·n)²` is minimized with `|c| = 1`. `None` when the samples do not
 /// determine `c`.
 pub(super) fn axis_of_revolution(samples: &[Sample]) -> Option<Axis> {
     let (mut moments, mut mixed) = (Matrix3::zeros(), Matrix3::zeros());

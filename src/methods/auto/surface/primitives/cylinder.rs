@@ -8,7 +8,7 @@ use crate::methods::auto::surface::Sample;
 use crate::methods::auto::surface::frame::Fit;
 use nalgebra::{Matrix3, SVector};
 
-/// A circular cylinder. A positive radius makes the normals point away from the axis, a negative one towards it.
+/// A circular cylinder. A positive radius makes the normals point away from the axis, a negative one toward it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cylinder {
     axis: Axis,

@@ -1,4 +1,4 @@
-//! Steps towards the primitive that fits best.
+//! Steps toward the primitive that fits best.
 //!
 //! Small and written for its purpose: the axis of a primitive is a direction, not three free numbers, so each
 //! step is taken in coordinates round the present primitive.

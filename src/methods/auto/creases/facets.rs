@@ -1,9 +1,11 @@
-//! The known triangles round a hole: who meets whom in which edge, and normals from which noise is filtered.
+//! The known triangles round a hole, with their shared edges and with normals from which noise is filtered.
 //!
-//! Normals are filtered by Y. Zheng, H. Fu, O. K.-C. Au, C.-L. Tai, "Bilateral normal filtering for mesh
-//! denoising", IEEE TVCG 17(10), 2011 (the local, iterative scheme), which averages them over neighbors whose
-//! normals are alike and so keeps creases. The width of "alike" follows from the normals themselves: a clean mesh is
-//! left as it is.
+//! Filter: Y. Zheng, H. Fu, O. K.-C. Au, C.-L. Tai, "Bilateral normal filtering for mesh denoising", IEEE TVCG
+//! 17(10), 2011, the local, iterative scheme. A normal becomes a mean over triangles that share a vertex. Similar
+//! normals count more, so creases stay. The width of the filter is a multiple of the median difference between
+//! neighbors; where that is zero, as on a plane, nothing is filtered.
+//!
+//! Cost: `O(n log n)` for `n` triangles, for sorting the edges.
 
 use crate::error::Result;
 use crate::job::Job;
@@ -15,9 +17,10 @@ use crate::patch::HoleShape;
 /// Rounds of filtering.
 const ROUNDS: usize = 6;
 
-/// Width of the filter in units of the median difference between the normals of neighbors, and at most: beyond
-/// that it would average over creases.
+/// Width of the filter, in units of the median length of the difference between the normals of neighbors.
 const WIDTH_FACTOR: f64 = 2.0;
+/// Upper bound on the width of the filter, as the length of a difference of unit normals. A wider filter would average
+/// across creases.
 const MOST_WIDTH: f64 = 0.35;
 
 /// An edge between two known triangles.
@@ -35,7 +38,7 @@ pub(super) struct Facets<'a> {
     /// Unit normals; zero for triangles without area.
     pub(super) normals: Vec<Vec3>,
     areas: Vec<f64>,
-    /// Edges with exactly two triangles that run along them in opposite directions, sorted by vertices; none before
+    /// Edges with exactly two triangles that have them in opposite directions, sorted by vertices. Empty before
     /// [`find_edges`](Self::find_edges).
     pub(super) edges: Vec<SharedEdge>,
 }
@@ -57,14 +60,14 @@ impl<'a> Facets<'a> {
         facets
     }
 
-    /// Whether all normals make less than the angle, in radians, with their mean.
+    /// Whether the angle between each normal and their mean is below `angle`, in radians.
     pub(super) fn turn_less_than(&self, angle: f64) -> bool {
         let mean = unit(self.normals.iter().sum());
         let least = angle.cos();
         self.normals.iter().all(|n| n.dot(&mean) > least)
     }
 
-    /// Finds out which triangles meet in which edge.
+    /// Finds the edges that triangles share.
     ///
     /// # Errors
     /// `Cancelled` when the job is stopped.
@@ -98,12 +101,12 @@ impl<'a> Facets<'a> {
         a.min(b).min(c)
     }
 
-    /// The angle between two triangles in radians, as their present normals see it.
+    /// The angle between the present normals of the edge's triangles, in radians.
     pub(super) fn angle(&self, edge: &SharedEdge) -> f64 {
         self.angle_between(edge.faces)
     }
 
-    /// The same for triangles that need not be neighbors.
+    /// The same for any two triangles.
     pub(super) fn angle_between(&self, faces: [u32; 2]) -> f64 {
         let [n, m] = faces.map(|f| self.normals[f as usize]);
         2.0 * (0.5 * (n - m).norm()).min(1.0).asin()

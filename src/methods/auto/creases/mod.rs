@@ -1,9 +1,14 @@
-//! Continues creases across a hole: cuts it into faces along the curves in which the surfaces of its surroundings
-//! meet, and fills each face like a hole of its own.
+//! Continues creases of the mesh across a hole, so that sharp edges stay sharp.
 //!
-//! A face keeps the vertices of its creases as it keeps those of the rim, so the faces fit together. Creases are used
-//! only where they explain the surroundings better than one smooth surface does: the regions' surfaces must predict
-//! rings that they have not seen better than the best smooth candidate predicts them.
+//! 1. Find the smooth regions round the hole, and where the creases between them meet the rim ([`detect`]).
+//! 2. Fit one surface to each region ([`region`]).
+//! 3. Cut the hole into faces along the curves in which these surfaces meet ([`partition`]).
+//! 4. Fill each face like a hole of its own. The vertices on its creases do not move, so the faces fit together.
+//!
+//! Creases are used only where they explain the surroundings at least as well as one smooth surface does: the score of
+//! the regions in leave-out cross-validation must not be worse than the score of the best smooth candidate.
+//!
+//! Not guaranteed: creases that fade out inside the known mesh are not found.
 
 mod detect;
 mod facets;
@@ -32,8 +37,8 @@ use partition::{Face, Partition, partition};
 use region::{RegionSurface, fit_regions};
 use slide::slide_ends;
 
-/// Cosine of the angle between the known triangle at a rim edge and the face's surface below which the edge lies on
-/// a crease.
+/// A rim edge lies on a crease if the cosine between the normal of its known triangle and the normal of the face's
+/// surface is at most this.
 const SAME_REGION: f64 = 0.8;
 
 /// A patch with creases.
@@ -41,16 +46,16 @@ pub(super) struct CreasePatch {
     pub(super) surface: PatchSurface,
     /// Number of creases in it.
     pub(super) count: usize,
-    /// Surface of each region, in the order in which the rim meets them.
+    /// The candidate of each region, in order along the rim.
     pub(super) surfaces: Vec<Candidate>,
 }
 
-/// What the creases must do better than, and how.
+/// The work on one hole.
 pub(super) struct Creases<'a> {
     pub(super) task: &'a Task<'a>,
     /// Mean edge length at the rim.
     pub(super) step: f64,
-    /// Score of the best smooth candidate.
+    /// Score of the best smooth candidate; the regions must not score worse.
     pub(super) smooth_score: f64,
 }
 
@@ -58,7 +63,7 @@ impl Creases<'_> {
     /// The patch that continues the creases; `None` when there are none.
     ///
     /// # Errors
-    /// Why creases that were found are not used: [`ErrorKind::Geometry`] and those of the steps;
+    /// [`ErrorKind::Geometry`], with the reason, when creases were found that cannot be used; those of the steps;
     /// [`ErrorKind::Cancelled`].
     pub(super) fn patch(&self) -> Result<Option<CreasePatch>> {
         let Some(mut regions) = detect(self.task.hole, self.task.job)? else {
@@ -133,7 +138,7 @@ impl Creases<'_> {
         Ok(())
     }
 
-    /// A face as a hole of its own, with the triangles of its region round it.
+    /// A face as a hole of its own. Its surroundings are the triangles of its region.
     fn face_shape(
         &self,
         face: &Face,
@@ -180,7 +185,7 @@ impl Creases<'_> {
         }
     }
 
-    /// The known triangles of the face's region, in the numbers of the face.
+    /// The known triangles of the face's region, with the vertex numbers of the face.
     fn surroundings_of(&self, face: &Face, known: &[u32]) -> Surroundings {
         let around = &self.task.hole.surroundings;
         let rim_count = self.task.hole.points.len();
@@ -209,8 +214,8 @@ impl Creases<'_> {
         result
     }
 
-    /// Pairs of the face's vertices that must not be joined inside it: those that the mesh joins, and those on
-    /// one crease, which the face on its other side could join as well.
+    /// Pairs of the face's vertices that no edge inside it may join: the mesh has that edge already, or both lie on
+    /// one crease and the face on the other side could make the same edge.
     fn joined_of(&self, face: &Face, partition: &Partition) -> Vec<(u32, u32)> {
         let rim_count = self.task.hole.points.len() as u32;
         let len = face.boundary.len() as u32;
@@ -264,8 +269,7 @@ fn unusable<T>(reason: &str) -> Result<T> {
     Err(Error::new(ErrorKind::Geometry, reason.to_owned()))
 }
 
-/// The geometric mean of the regions' scores, each as often as it has rim edges; zero when no region is large
-/// enough to have one.
+/// The geometric mean of the regions' scores, weighted by their numbers of rim edges; zero when no region has a score.
 fn common_score(regions: &Regions, surfaces: &[RegionSurface]) -> f64 {
     let (mut logarithms, mut count) = (0.0, 0.0);
     for &region in &regions.at_rim {

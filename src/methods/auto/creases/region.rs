@@ -1,8 +1,8 @@
-//! The surface that continues one region round a hole.
+//! Chooses and fits the surface that continues one region of the mesh into a hole.
 //!
-//! It is chosen as [`choice`] does for a smooth hole, from the region's own triangles: those beyond a crease would
-//! bend normals and fits. A region with too few vertices to choose is continued by a plane if it is one, else
-//! by the function that interpolates it.
+//! The choice is that of [`choice`] for a smooth hole, but it reads only the region's own triangles. Triangles beyond a
+//! crease would falsify normals and fits. A region with too few vertices for a choice is continued by a plane if its
+//! vertices lie in one, otherwise by an interpolating function.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::job::Job;
@@ -15,26 +15,26 @@ use crate::methods::auto::surface::{Implicit, Sample};
 use crate::patch::HoleShape;
 use crate::surroundings::Band;
 
-/// A region is a plane when its vertices are this close to one, in rim edge lengths, or by this factor of its noise.
+/// A small region is a plane if the root mean square distance of its vertices from a plane is below the larger of two
+/// bounds: `PLANE_DISTANCE`, in mean rim edge lengths, and `PLANE_NOISE`, in units of its noise.
 const PLANE_DISTANCE: f64 = 5e-3;
 const PLANE_NOISE: f64 = 2.0;
 
-/// Vertices that a surface needs.
+/// Lower bound on the vertices that a surface is fitted to.
 const FEWEST_VERTICES: usize = 4;
-/// Most vertices that the surface of a region too small for a choice is fitted to: the cost of an interpolating
-/// function grows with the cube of their number.
+/// Upper bound on the vertices that the surface of a small region is fitted to. The cost of an interpolating function
+/// grows with the cube of this number.
 const MOST_VERTICES: usize = 140;
 
 /// The surface of a region.
 pub(crate) struct RegionSurface {
     pub(crate) candidate: Candidate,
     pub(crate) surface: Box<dyn Implicit>,
-    /// The score of the candidate, as [`choice::scores`] gives it, and the number of rim edges that it speaks for;
-    /// `None` for a region too small to be scored.
+    /// The score of the candidate from [`choice::scores`]; `None` for a region too small for a choice.
     pub(crate) score: Option<f64>,
 }
 
-/// The triangles of one region as the surroundings of the part of the rim that they touch.
+/// The part of the rim that the triangles of one region touch, with these triangles as its surroundings.
 fn region_shape(hole: &HoleShape, faces: &[u32]) -> HoleShape {
     let (rim_count, around) = (hole.points.len(), &hole.surroundings);
     let triangles: Vec<[u32; 3]> = faces
@@ -63,8 +63,8 @@ fn region_shape(hole: &HoleShape, faces: &[u32]) -> HoleShape {
     shape
 }
 
-/// Chooses a surface for each region. `step` is the mean edge length at the rim; `allowed` says which candidates
-/// may be used.
+/// Chooses and fits a surface for each region. `step` is the mean edge length at the rim; `allowed` says which
+/// candidates may be used.
 ///
 /// # Errors
 /// [`ErrorKind::Geometry`] when a region is too small; [`ErrorKind::Cancelled`].

@@ -1,4 +1,4 @@
-//! Surfaces that continue the surroundings of a hole as zero sets of functions.
+//! The surfaces that may continue the mesh into a hole, each as the zero set of a function, and the choice among them.
 
 pub(crate) mod algebraic;
 pub(crate) mod candidates;
@@ -15,9 +15,9 @@ pub(crate) mod tip;
 
 use crate::math::Vec3;
 
-/// Rings of the surroundings that the choice of a surface reads.
+/// Rings of triangles round the hole that are read.
 pub(crate) const RINGS: u32 = 9;
-/// Rings that a surface is fitted to.
+/// Rings of triangles that a surface is fitted to. They have one more ring of vertices.
 pub(crate) const FITTED_RINGS: u32 = 3;
 
 /// A point of the known surface with its normal.

@@ -1,8 +1,11 @@
-//! Whether a hole is the missing tip of a horn.
+//! Recognizes a hole that is the missing tip of a horn, and finds the height of the tip.
 //!
-//! Where the surface stands steeply on the plane of a small rim and closes in on the hole, what is missing is the end
-//! of something long. Interpolating functions round such ends off too early; a quadric, fitted to a converging tube,
-//! is an ellipsoid or a paraboloid and closes like one.
+//! A hole is a tip if its rim is small and nearly planar, the mesh is steep against the plane of the rim, and it
+//! converges toward the hole. An interpolating function would close such a hole too early. A quadric fitted to a
+//! converging tube is an ellipsoid, a paraboloid or a cone, and has a tip. So the quadric or the cone is used if its
+//! score allows it.
+//!
+//! Cost: linear in the number of vertices round the hole. Not guaranteed: that every tip is recognized.
 
 use super::Implicit;
 use super::candidates::Candidate;
@@ -13,22 +16,27 @@ use crate::patch::HoleShape;
 use crate::surroundings::Band;
 use nalgebra::{Matrix3, SymmetricEigen};
 
-/// Mean angle between the normals of the triangles at the rim and that of the rim's plane, at least.
+/// Lower bound on the mean angle, in radians, between the normals of the triangles at the rim and the normal of the
+/// rim's plane.
 const STEEP: f64 = 60.0 * std::f64::consts::PI / 180.0;
-/// Spread of the rim across its plane over that along it, at most; coarse rims are ragged, and beyond this have no plane.
+/// Upper bound on the spread of the rim vertices across their plane, divided by their largest spread. It is large
+/// because coarse rims are ragged.
 const FLAT: f64 = 0.5;
-/// Edges of the rim, fewer than this: the end of something wide is no tip.
+/// A rim with at least this number of edges is not the rim of a tip.
 const SMALL: usize = 80;
-/// Mean component of the normals toward the hole, at least: 0 is a tube of constant width, which has no tip to grow.
+/// Lower bound on the mean component of the normals in the direction of the hole. It is 0 for a tube of constant width,
+/// which has no tip.
 const CONVERGING: f64 = 0.08;
 
-/// A surface that closes is used when its score is within this factor of the best of all but [`TOO_FREE`]: the rings
-/// left out lie on the flank and say less about the tip than that it closes.
+/// A surface that closes is used if its score is within this factor of the best score of all candidates but
+/// [`TOO_FREE`]. A worse score is accepted because the rings that were left out lie on the flank, and say little about
+/// the tip.
 const TOLERANCE: f64 = 1.5;
-/// The tip is further from the rim than any ring that was left out: surfaces with so much freedom bend on the way.
+/// Candidates that are not used for a tip. The tip is further from the rim than any ring that was left out, and
+/// surfaces with many degrees of freedom bend on the way.
 const TOO_FREE: [Candidate; 2] = [Candidate::Cyclide, Candidate::Torus];
 
-/// The surface that closes a tip, if it predicts well: the quadric, or the cone where that has the better score.
+/// The candidate that closes a tip, if its score allows it: the quadric, or the cone if its score is better.
 pub(crate) fn closing_candidate(scores: &[Score]) -> Option<Candidate> {
     let best = scores
         .iter()
@@ -46,12 +54,12 @@ pub(crate) fn closing_candidate(scores: &[Score]) -> Option<Candidate> {
     }
 }
 
-/// What is left of a horn whose tip may be missing.
+/// What is left of a horn whose tip is missing.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stump {
     /// The centroid of the rim.
     center: Vec3,
-    /// Unit vector across the rim's plane, away from the surroundings.
+    /// Unit normal of the rim's plane, away from the surroundings.
     onward: Vec3,
 }
 
@@ -59,15 +67,17 @@ pub(crate) struct Stump {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tip {
     stump: Stump,
-    /// From the centroid of the rim to the apex.
+    /// Distance from the centroid of the rim to the apex.
     height: f64,
 }
 
-/// Height of a tip in diameters of the rim, at least: lower than half a sphere it is a cap, which needs no help.
+/// Lower bound on the height of a tip, in diameters of the rim. Half a sphere has 0.5; a lower cap needs no special
+/// treatment.
 const LEAST_HEIGHT: f64 = 0.5;
 
 impl Stump {
-    /// The tip that the surface puts on the stump, if it has one up to `reach` above a rim of the diameter.
+    /// The tip that the surface puts on the stump; `None` if its apex is lower than [`LEAST_HEIGHT`] or higher than
+    /// `reach`. `diameter` is that of the rim.
     pub(crate) fn tip_on(&self, surface: &dyn Implicit, diameter: f64, reach: f64) -> Option<Tip> {
         let height = way_out(surface, &self.center, &self.onward, reach)?;
         (height > LEAST_HEIGHT * diameter).then_some(Tip {
@@ -78,14 +88,14 @@ impl Stump {
 }
 
 impl Tip {
-    /// Where a point goes that is to be at this share of the way up to the apex; higher ones stay.
+    /// The point, raised to the given share of the height of the tip. A point that is higher stays.
     pub(crate) fn raised(&self, p: &Vec3, share: f64) -> Vec3 {
         let present = (p - self.stump.center).dot(&self.stump.onward);
         p + f64::max(share * self.height - present, 0.0) * self.stump.onward
     }
 }
 
-/// Judges by the rim, its normals and the direction in which the surroundings end.
+/// The stump round the hole; `None` if the hole is not the missing tip of a horn.
 pub(crate) fn find_stump(hole: &HoleShape, band: &Band) -> Option<Stump> {
     let rim = &hole.points;
     let normals: Vec<Vec3> = hole.outside_normals.iter().flatten().copied().collect();

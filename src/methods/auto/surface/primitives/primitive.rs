@@ -1,4 +1,4 @@
-//! What the non-linear fit needs to know of a kind of surface.
+//! The interface between the non-linear fit and a kind of surface: [`Shape`], [`Primitive`] and [`Linear`].
 
 use super::super::Sample;
 use super::axis::{Axis, Revolved};
@@ -7,13 +7,13 @@ use nalgebra::SVector;
 
 /// A surface with a closed formula for the distance from it.
 pub(crate) trait Shape: Copy + Send + Sync {
-    /// The distance of `p`, negative behind the surface, and its gradient, a unit vector.
+    /// The signed distance of `p`, negative behind the surface, and its gradient, a unit vector.
     fn distance_and_normal(&self, p: &Vec3) -> (f64, Vec3);
 }
 
-/// A surface with `D` degrees of freedom that knows where to begin.
+/// A kind of surface with `D` degrees of freedom that can be fitted.
 pub(crate) trait Primitive<const D: usize>: Shape {
-    /// Where to begin, for samples of the size one round the origin.
+    /// Starts for the fit, from samples with their centroid at the origin and unit spread.
     fn starts(samples: &[Sample]) -> Vec<Self>;
 
     /// The surface after a small step in its degrees of freedom.
@@ -22,8 +22,8 @@ pub(crate) trait Primitive<const D: usize>: Shape {
     /// The axis of revolution.
     fn axis(&self) -> &Axis;
 
-    /// Distance and normal at `p`, and how fast they change with the degrees of freedom; `across` are the two
-    /// directions across the axis.
+    /// Distance and normal at `p`, and their derivatives by the degrees of freedom. `across` are the two unit vectors
+    /// of [`Axis::across`].
     fn linearize(&self, across: &[Vec3; 2], p: &Vec3) -> Linear<D>;
 }
 

@@ -66,7 +66,7 @@ impl FairingDomain {
     /// Joins the patch to the rings of its surroundings below `ring_count`.
     ///
     /// # Errors
-    /// `Cancelled` when the job is stopped.
+    /// `Cancelled` when the job is cancelled.
     pub(crate) fn new(
         surface: &PatchSurface,
         surroundings: &Surroundings,

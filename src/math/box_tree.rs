@@ -170,7 +170,7 @@ impl BoxTree {
     /// Makes the tree of `count` boxes, at most `u32::MAX`; the id of a box is its argument.
     ///
     /// # Errors
-    /// `Cancelled` when the job is stopped.
+    /// `Cancelled` when the job is cancelled.
     pub(crate) fn build(
         count: usize,
         box_of: impl Fn(usize) -> Aabb + Sync,

@@ -75,7 +75,7 @@ impl Envelope {
     /// positive definite.
     ///
     /// # Errors
-    /// `Cancelled` when the job is stopped.
+    /// `Cancelled` when the job is cancelled.
     pub(super) fn solve(
         &self,
         matrix: &SymmetricMatrix,

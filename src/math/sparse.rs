@@ -50,7 +50,7 @@ impl<'a> SpdSolver<'a> {
     ///
     /// # Errors
     /// [`ErrorKind::Solver`] when the matrix is not positive definite or the solution not finite;
-    /// [`ErrorKind::Cancelled`] when the job is stopped.
+    /// [`ErrorKind::Cancelled`] when the job is cancelled.
     pub(crate) fn solve(
         &mut self,
         mut matrix: SymmetricMatrix,

@@ -83,7 +83,7 @@ pub(crate) struct Rings {
 /// search among the rim's edges for each vertex.
 ///
 /// # Errors
-/// `Cancelled` when the job is stopped.
+/// `Cancelled` when the job is cancelled.
 pub(crate) fn collect_rings(
     mesh: &TriMesh,
     rim_halfedges: &[u32],

@@ -1,4 +1,4 @@
-//! Which method to use, and the options of each: what users choose.
+//! The choices of users: the method, and the options of each method.
 
 use crate::error::{Error, ErrorKind};
 use crate::options::entry::options;
@@ -34,7 +34,7 @@ macro_rules! declare {
         }
 
         options! {
-            /// The options of each method; those that methods share are those of the first one that has them.
+            /// The options of each method. Options that several methods share stand in the group of the first of them.
             pub struct MethodOptions {
             }
             groups {

@@ -1,7 +1,8 @@
 //! Counts the improper intersections of a patch with itself and with the mesh it was made for.
 //!
-//! Small patches are swept along their longest axis; large ones get a [`BoxTree`] of their own and are
-//! searched piece by piece in parallel. The mesh is asked through its index. Most pairs with overlapping boxes are neighbors, which a [`Separator`] tells apart at once.
+//! Small patches are swept along their longest axis; large ones get a [`BoxTree`] of their own and are searched piece
+//! by piece in parallel. The mesh is asked through its index. Most pairs with overlapping boxes are neighbors, which
+//! a [`Separator`] tells apart at once.
 //!
 //! Complexity: O(m log n + k) for m patch triangles, n mesh faces and k pairs of overlapping boxes.
 //! What counts is said in [`intersects_improperly`]. Each pair of triangles counts once; pairs
@@ -100,7 +101,7 @@ impl SelfIntersections {
 /// indexes.
 ///
 /// # Errors
-/// `Cancelled` when the job is stopped.
+/// `Cancelled` when the job is cancelled.
 pub(crate) fn count(
     mesh: Surface<'_>,
     faces: &FaceIndex,

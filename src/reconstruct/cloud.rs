@@ -95,7 +95,7 @@ impl Cloud {
     /// The `count` nearest neighbors of every point.
     ///
     /// # Errors
-    /// [`ErrorKind::Cancelled`] when the job is stopped.
+    /// [`ErrorKind::Cancelled`] when the job is cancelled.
     pub(super) fn all_nearest(&self, count: usize, job: &Job<'_>) -> Result<NearestPoints> {
         let count = count.min(self.len().saturating_sub(1));
         let lists = for_all(self.len(), job, |v| self.nearest(v, count))?;
@@ -129,7 +129,7 @@ impl NearestPoints {
 /// `make(v)` for all `v` below `count`, in order, made in parallel.
 ///
 /// # Errors
-/// [`ErrorKind::Cancelled`] when the job is stopped.
+/// [`ErrorKind::Cancelled`] when the job is cancelled.
 pub(super) fn for_all<T: Send>(
     count: usize,
     job: &Job<'_>,

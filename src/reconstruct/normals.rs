@@ -23,7 +23,7 @@ const WIDER: [usize; 2] = [2, 4];
 /// Unit normals: the `known` ones, else estimated, of either sign; zero where the points near are on a line.
 ///
 /// # Errors
-/// `Cancelled` when the job is stopped.
+/// `Cancelled` when the job is cancelled.
 pub(super) fn estimate(
     cloud: &Cloud,
     neighbors: &NearestPoints,

@@ -24,7 +24,7 @@ const SIGN_NEIGHBORS: usize = 10;
 /// that of their surroundings; a part of the graph without any takes the sign of its first point.
 ///
 /// # Errors
-/// `Cancelled` when the job is stopped.
+/// `Cancelled` when the job is cancelled.
 pub(super) fn agree(
     cloud: &Cloud,
     neighbors: &NearestPoints,

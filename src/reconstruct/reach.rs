@@ -42,7 +42,7 @@ pub(super) fn circumradius([a, b, c]: [Vec3; 3]) -> f64 {
 /// Where a neighborhood has no triangle, that of all points is taken.
 ///
 /// # Errors
-/// `Cancelled` when the job is stopped.
+/// `Cancelled` when the job is cancelled.
 pub(super) fn limits(
     cloud: &Cloud,
     neighbors: &NearestPoints,

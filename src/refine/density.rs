@@ -105,7 +105,7 @@ impl SizeField {
     ///
     /// # Errors
     /// `InvalidInput` unless there is one positive, finite size for each vertex or for each rim
-    /// vertex, and the grading is finite and not negative; `Cancelled` when the job is stopped.
+    /// vertex, and the grading is finite and not negative; `Cancelled` when the job is cancelled.
     pub(super) fn new(
         mesh: &PatchMesh,
         points: &[Vec3],

@@ -50,7 +50,7 @@ impl<'a> Flipper<'a> {
     /// of flips.
     ///
     /// # Errors
-    /// `Cancelled` when the job is stopped.
+    /// `Cancelled` when the job is cancelled.
     pub(super) fn restore(
         &mut self,
         mesh: &mut PatchMesh,

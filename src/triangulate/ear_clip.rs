@@ -1,11 +1,11 @@
 //! Ear clipping of a polygon in space, cheapest ear first.
 //!
-//! An ear is the triangle of three successive positions. The one with the least cost is cut off
-//! until few enough positions are left for a better method. The cost is the radius of the ear's
-//! circumscribed circle, or the length of the new edge if that is more: ears as in a Delaunay triangulation
-//! go first and those along a densely sampled, almost straight rim last. It is raised when the ear turns away from its two known
-//! neighbors, and more when it does not face like the rim round the hole, where it may fold over.
-//! The known ideas of ear clipping are combined here; no paper is followed.
+//! An ear is the triangle of three successive positions. The one with the least cost is cut off until few enough
+//! positions are left for a better method. The cost is the radius of the ear's circumscribed circle, or the length of
+//! the new edge if that is more: ears as in a Delaunay triangulation go first and those along a densely sampled,
+//! almost straight rim last. It is raised when the ear turns away from its two known neighbors, and more when it does
+//! not face like the rim round the hole, where it may fold over. The known ideas of ear clipping are combined here;
+//! no paper is followed.
 //!
 //! Time O(m log m), memory O(m).
 //!
@@ -45,7 +45,7 @@ pub(super) struct Clipped {
 /// whose edge may arise.
 ///
 /// # Errors
-/// `Cancelled` when the job is stopped.
+/// `Cancelled` when the job is cancelled.
 pub(super) fn clip(
     polygon: &HolePolygon<'_>,
     rules: &ChordRules<'_>,

@@ -20,7 +20,7 @@ pub(crate) type Point2 = [f64; 2];
 /// All coordinates must be finite.
 ///
 /// # Errors
-/// `Cancelled` when the job is stopped.
+/// `Cancelled` when the job is cancelled.
 ///
 /// # Complexity
 /// O(m log m) and one test for each pair of edges whose ranges of x overlap: about m^1.5 pairs for a polygon

@@ -1,11 +1,14 @@
-//! The height field round a hole, fitted by moving least squares, and the patch that resamples it.
+//! The height field round a hole, fitted by moving least squares, and the patch that is sampled from it.
 //!
-//! Based on: J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed from point
-//! clouds", preprint 2006, Image and Vision Computing 25(1), 2007, section 4. Deviations are listed in
-//! `docs/methods/mls.md`; the sphere as a domain is beyond the paper.
+//! The domain is chosen, the points near the rim are projected to it, and their heights are fitted. The patch has
+//! samples of the fit on a square grid inside the rim.
 //!
-//! O(m k) for m points of the vicinity and k samples, as in the paper.
-//! Not guaranteed: that the patch is free of intersections, or that it is what was there.
+//! Source: J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed from point clouds",
+//! preprint 2006, Image and Vision Computing 25(1), 2007, section 4. `docs/methods/mls.md` lists the differences. The
+//! sphere as a domain is not in the paper.
+//!
+//! Cost: O(m k) for m points of the vicinity and k samples, as in the paper. Not guaranteed: that the patch is free of
+//! intersections.
 
 use super::domain::{Domain, Place};
 use super::fit::MovingFit;
@@ -21,17 +24,17 @@ use crate::patch::{HoleShape, PatchSurface, Surroundings};
 use crate::triangulate::planar::triangulate_planar_region;
 use crate::triangulate::simple_polygon::{Point2, find_contact};
 
-/// Share of the vicinity's projected area that may be turned over: noise turns single thin triangles, a fold
-/// turns whole parts.
+/// Upper bound on the share of the vicinity's projected area that is turned over. Noise turns single thin triangles
+/// over, a fold turns large parts over.
 const FOLDED_SHARE: f64 = 0.02;
-/// Least ratio of the vicinity's projected area to its area at which the plane is chosen by itself: at 45 degrees
-/// heights change as fast as coordinates, from where on the paper (section 6) sees patches bulge.
+/// Lower bound on the projected area of the vicinity, divided by its area in space, for which the plane is chosen
+/// automatically. It stands for 45 degrees on average. On a steeper surface patches bulge, see section 6 of the paper.
 const LEAST_PROJECTED_SHARE: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// Products of vicinity points and samples that are computed, about half a minute's work.
+/// Upper bound on the number of vicinity points times the number of samples. It takes about half a minute.
 const MOST_PRODUCTS: usize = 1 << 30;
-/// Times that chords are cut that the mesh has as edges already; each time there are fewer.
+/// Upper bound on the rounds of adding samples on chords that are edges of the mesh already.
 const CHORD_ROUNDS: usize = 4;
-/// Over the hole's radius: the length in which distances count, [`MlsUnit::Radius`].
+/// The unit of [`MlsUnit::Radius`], divided by the radius of the hole.
 const RADIUS_SHARE: f64 = 0.25;
 
 /// The height field round one hole.
@@ -48,11 +51,12 @@ pub(crate) struct HeightField<'a> {
 }
 
 impl<'a> HeightField<'a> {
-    /// Takes the heights of the vicinity. `surroundings` must reach [`MlsOptions::beta`] sampling steps far.
+    /// Chooses the domain and measures the heights of the vicinity. `surroundings` must contain all points nearer to
+    /// the rim than [`MlsOptions::beta`] sampling steps.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] when the vicinity does not project one-to-one onto the domain, or there is no
-    /// domain; [`ErrorKind::Topology`] when an island touches the rim; [`ErrorKind::Cancelled`].
+    /// [`ErrorKind::Geometry`] when there is no domain, or the vicinity does not project to it one-to-one;
+    /// [`ErrorKind::Topology`] when an island touches the rim; [`ErrorKind::Cancelled`].
     pub(crate) fn new(
         hole: &'a HoleShape,
         surroundings: &Surroundings,
@@ -97,16 +101,16 @@ impl<'a> HeightField<'a> {
         })
     }
 
-    /// The vertices of the vicinity, as [`HoleShape::point`] counts them.
+    /// The vertices of the vicinity, with the numbers of [`HoleShape::point`].
     pub(crate) fn vertices(&self) -> &[u32] {
         &self.vicinity.vertices
     }
 
-    /// Extends values at the [`Self::vertices`], one list for each channel, to other points: the heights are
-    /// replaced by them (section 4.4).
+    /// Extends attribute values to other points: fits them in place of the heights (section 4.4). `channels` has one
+    /// list for each channel, with a value for each of the [`Self::vertices`].
     ///
     /// # Errors
-    /// [`ErrorKind::Solver`] when there is no value somewhere; [`ErrorKind::Limit`]; [`ErrorKind::Cancelled`].
+    /// [`ErrorKind::Solver`] when the fit has no value at a point; [`ErrorKind::Limit`]; [`ErrorKind::Cancelled`].
     pub(crate) fn extend(
         &self,
         channels: &[Vec<f64>],
@@ -120,8 +124,8 @@ impl<'a> HeightField<'a> {
     /// The patch: the rim, the samples, and the triangles between them.
     ///
     /// # Errors
-    /// [`ErrorKind::Limit`] for more than `limit` samples or too many of them for the size of the vicinity;
-    /// those of the fit and of the triangulation; [`ErrorKind::Cancelled`].
+    /// [`ErrorKind::Limit`] for more than `limit` samples, or if samples times vicinity points are too many; those of
+    /// the fit and of the triangulation; [`ErrorKind::Cancelled`].
     pub(crate) fn patch(&self, limit: usize, job: &Job<'_>) -> Result<PatchSurface> {
         let hole = self.hole;
         let at = |v: &u32| self.uv[*v as usize];
@@ -132,7 +136,7 @@ impl<'a> HeightField<'a> {
             .collect();
         let step = self.vicinity.step;
         let mut samples = mask::resampling_positions(&loops, step, limit, job)?;
-        // The triangulation counts the vertices of the loops and then the samples.
+        // The triangulation numbers the vertices of the loops first and then the samples.
         let order: Vec<u32> = self.loops.iter().flatten().copied().collect();
         let mut triangles = triangulate_planar_region(&loops, &samples, job)?;
         let shift = hole.points.len() - order.len();
@@ -218,19 +222,19 @@ impl<'a> HeightField<'a> {
     }
 }
 
-/// The vicinity in a domain.
+/// The vicinity, projected to a domain.
 struct Projection {
-    /// Where its points are.
+    /// The coordinates of its points.
     places: Vec<Place>,
-    /// Projected area of its triangles over their area.
+    /// Projected area of its triangles, divided by their area in space.
     area_share: f64,
 }
 
 impl Projection {
-    /// Takes the places of the vicinity's points.
+    /// Projects the vicinity.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] when they are not in one-to-one relation with the points; [`ErrorKind::Cancelled`].
+    /// [`ErrorKind::Geometry`] when the projection is not one-to-one; [`ErrorKind::Cancelled`].
     fn new(
         domain: &Domain,
         vicinity: &Vicinity,

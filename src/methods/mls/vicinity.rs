@@ -1,4 +1,6 @@
-//! The known points near a rim, through which the height field is fitted.
+//! The vicinity of a hole: the known points near the rim, to which the height field is fitted.
+//!
+//! Source: J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed from point clouds", 2007.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::job::Job;
@@ -8,7 +10,7 @@ use crate::patch::{HoleShape, Surroundings};
 
 /// The points nearer to the rim than a number of sampling steps, and the triangles between them.
 pub(crate) struct Vicinity {
-    /// The vertices: those of the rim first, then of the surroundings, as [`HoleShape::point`] counts them.
+    /// The vertices, first those of the rim, then others, with the numbers of [`HoleShape::point`].
     pub(crate) vertices: Vec<u32>,
     /// Their positions.
     pub(crate) points: Vec<Vec3>,
@@ -19,8 +21,7 @@ pub(crate) struct Vicinity {
 }
 
 impl Vicinity {
-    /// The points of `surroundings` nearer to the rim than `beta` sampling steps. The surroundings must reach
-    /// so far.
+    /// The points of `surroundings` nearer to the rim than `beta` sampling steps. `surroundings` must contain them all.
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`] when the triangles at the rim have no area; [`ErrorKind::Cancelled`].
@@ -77,7 +78,7 @@ pub(crate) fn rim_loops(hole: &HoleShape) -> Result<Vec<Vec<u32>>> {
     let edge = |i: usize| (hole.polygon[i], hole.polygon[(i + 1) % m]);
     let mut edges: Vec<(u32, u32)> = (0..m).map(edge).collect();
     edges.sort_unstable();
-    // A bridge is passed both ways.
+    // The polygon passes a bridge in both directions.
     let is_bridge = |&(a, b): &(u32, u32)| edges.binary_search(&(b, a)).is_ok();
     let mut next: Vec<Option<u32>> = vec![None; hole.points.len()];
     for (a, b) in edges.iter().copied().filter(|e| !is_bridge(e)) {

@@ -1,12 +1,17 @@
-//! Patches over sections: curves in planes between facing points of the rim, triangulated together.
+//! Fills a hole with curves that run across it from rim to rim. The methods `hpde`, `grey` and `nurbs` share this; they
+//! differ only in how they predict the points of the curves.
+//!
+//! Pairs of points that face each other across the rim are chosen. Through each pair goes a plane, and in this plane a
+//! curve, the section. The points of all sections are triangulated together in a plane. The result is smoothed, short
+//! edges are collapsed, and edges are swapped for better angles.
 //!
 //! Source: W.-C. Xie, X.-F. Zou, "A triangulation-based hole patching method using differential evolution",
-//! Computer-Aided Design 45, 2013. The files are its seven steps; `docs/methods/hpde.md` lists what is read
-//! differently, and why.
+//! Computer-Aided Design 45, 2013. The files follow its seven steps. `docs/methods/hpde.md` lists the differences from
+//! the paper, with reasons.
 //!
-//! Not guaranteed: that a hole can be patched. Islands, sections that cross, surfaces that leave the rim too steeply
-//! and patches that fold are refused with their reason. Two triangles that are not neighbors may intersect: whoever
-//! uses the patch must look.
+//! Not guaranteed: that a hole can be patched. Holes with islands, sections that cross, surfaces that leave the rim too
+//! steeply, and patches that fold are refused with a reason. Triangles that are not neighbors may intersect; the caller
+//! must check that.
 
 pub(crate) mod arcs;
 mod base_points;
@@ -43,22 +48,24 @@ use section::{Section, assemble, prepare};
 use smoothing::{NeighborLists, smooth};
 use std::borrow::Cow;
 
-/// Rings of known triangles that are read: two for the normals of the rim's neighbors, one more for the next ones.
+/// Rings of known triangles that are read. A normal is fitted to two rings of neighbors, or to more where there are
+/// few.
 pub(super) const RING_COUNT: u32 = 3;
 
-/// Neighboring triangles that turn by more than the angle with this cosine, 120°, are a fold.
+/// Two neighboring triangles are a fold if the cosine of the angle between their normals is below this, that is, above
+/// 120°.
 const FOLDED: f64 = -0.5;
 
-/// Part of the predicted points that may come to lie outside the rim in the plane, where the rim is jagged.
+/// Upper bound on the share of predicted points that lie outside the rim in the plane. A jagged rim has some.
 const MOST_OUTSIDE: f64 = 0.2;
 
-/// Points at which the patch folds are left out, and what is left is triangulated anew, this many times at most.
+/// Upper bound on the rounds of leaving out the points at which the patch folds, and triangulating the others again.
 const MOST_ROUNDS: usize = 12;
 
-/// What predicts the points of all sections.
+/// Predicts the points of all sections.
 pub(super) type Curves<'a> = dyn Fn(&[BasePoint], &[Prepared]) -> Result<Predicted> + 'a;
 
-/// The patch whose points lie on `curves`: all steps of the paper but the prediction itself.
+/// All steps of the paper but the prediction of points, which `curves` does.
 ///
 /// # Errors
 /// [`ErrorKind::Topology`] and [`ErrorKind::Geometry`] for holes out of the method's reach, with the reason;
@@ -77,7 +84,8 @@ pub(super) fn patch_along(
     let rim = read_rim(hole, options, job)?;
     let mut base = base_points(&rim, options.base_spacing);
     let n = base.len();
-    // Step 3: the sequence in which partners are known, and where it is folded.
+    // Step 3: rotate the base points so that points `i` and `n - 1 - i` are partners. `fold` is the first section on
+    // the second plane, if the rim is seen as two parts.
     let mut fold = None;
     if n > 0 {
         let start = match segmentation::cut(&base, options.segment_angle) {
@@ -93,7 +101,7 @@ pub(super) fn patch_along(
     }
     let smallest_sine = options.skip_angle.to_radians().sin();
     let mut pairs = pairs(&base, smallest_sine);
-    // A section along one edge of the rim has nothing to predict.
+    // A section along an edge of the rim has no points.
     pairs.retain(|p| {
         let (first, second) = (base[p.first].arc, base[p.second].arc);
         rim.has_vertex_between(first, second) && rim.has_vertex_between(second, first)
@@ -124,14 +132,14 @@ pub(super) fn patch_along(
         match layout() {
             Ok(patch) => return Ok(patch),
             Err(error) if error.kind() == ErrorKind::Cancelled => return Err(error),
-            // The reason of the first one is that of the published method.
+            // The first layout is that of the paper; its error is reported.
             Err(error) => reason = reason.or(Some(error)),
         }
     }
     Err(reason.unwrap_or_else(|| folded(0)))
 }
 
-/// The rim as the prediction sees it, smoothed on request together with its surroundings.
+/// The rim, with normals. On request it is smoothed, together with its surroundings.
 fn read_rim(hole: &HoleShape, options: &SectionOptions, job: &Job<'_>) -> Result<Rim> {
     let mut seen = Cow::Borrowed(hole);
     if options.denoise > 0 {
@@ -157,7 +165,7 @@ fn read_rim(hole: &HoleShape, options: &SectionOptions, job: &Job<'_>) -> Result
     ))
 }
 
-/// Smooths the rim along itself and the rings round it, but for the outermost vertices.
+/// Smooths the rim along itself, and the rings round it except the outermost vertices.
 fn denoise(hole: &mut HoleShape, steps: usize) {
     let rim_count = hole.points.len();
     let m = hole.polygon.len();
@@ -174,7 +182,7 @@ fn denoise(hole: &mut HoleShape, steps: usize) {
     hole.points = points;
 }
 
-/// Steps 6 and 7: the patch on a layout, smoothed and optimized.
+/// Steps 6 and 7: triangulates the points of a layout, then smooths and optimizes the patch.
 fn finish(
     hole: &HoleShape,
     rim: &Rim,
@@ -199,7 +207,7 @@ fn finish(
     }
 }
 
-/// The constrained triangulation, without the points at which it would fold.
+/// The constrained triangulation of the layout. Points at which it folds are left out.
 fn triangulated<'a>(
     hole: &'a HoleShape,
     sections: &[Section],
@@ -226,7 +234,7 @@ fn triangulated<'a>(
     for _ in 0..MOST_ROUNDS {
         let inside: Vec<[f64; 2]> = predicted.iter().map(|p| p.1).collect();
         let triangles = triangulate_planar_region(&[&layout.rim], &inside, job)?;
-        // The layout has the rim in the order of the polygon.
+        // The rim of the layout is in the order of the polygon.
         let number = |v: u32| hole.polygon.get(v as usize).copied().unwrap_or(v);
         let mut points = hole.points.clone();
         points.extend(predicted.iter().map(|p| p.0));
@@ -242,14 +250,14 @@ fn triangulated<'a>(
         let mut is_left_out = vec![false; predicted.len()];
         for v in folds.iter().flatten() {
             if let Some(index) = (*v as usize).checked_sub(m) {
-                // Beyond the predicted points are those that split an edge.
+                // Points after the predicted ones were made by splitting an edge.
                 if let Some(left_out) = is_left_out.get_mut(index) {
                     *left_out = true;
                 }
             }
         }
         if !is_left_out.contains(&true) {
-            // What is folded without any of the points will have to be smoothed.
+            // The remaining folds have no predicted point. Smoothing may remove them.
             return Ok(editor);
         }
         let mut left_out = is_left_out.into_iter();

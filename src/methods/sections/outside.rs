@@ -1,7 +1,8 @@
-//! The known surface along a section, from the rim outward: what GREY and NURBS extrapolate.
+//! Samples the known surface along a section plane, from the rim outward. The methods `grey` and `nurbs` extrapolate
+//! these samples into the hole.
 //!
-//! A section plane is followed through the known triangles, from edge to edge. `O(steps)` per section, once the
-//! edges are sorted.
+//! The plane is followed through the known triangles, from edge to edge. `O(n log n)` for `n` known triangles to sort
+//! their edges, then `O(k log n)` for `k` triangles that a section passes.
 
 use super::base_points::BasePoint;
 use super::section::Prepared;
@@ -11,24 +12,24 @@ use crate::math::{Vec3, unit};
 use crate::patch::HoleShape;
 use crate::surroundings::Band;
 
-/// Triangles that a walk passes at most for each step that is asked for: more, and they are slivers.
+/// Upper bound on the triangles that a walk passes for each sample. Only slivers need more.
 const TRIANGLES_PER_STEP: usize = 8;
 
-/// A place on the known surface.
+/// A sample of the known surface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known {
     pub(crate) point: Vec3,
-    /// Unit normal, interpolated between those at vertices: facets turn only at their edges.
+    /// Unit normal, interpolated between the normals of vertices.
     pub(crate) normal: Vec3,
 }
 
-/// The known triangles round a hole, ready to be walked through.
+/// The known triangles round a hole, with their edges sorted.
 pub(crate) struct Outside<'a> {
     hole: &'a HoleShape,
     points: Vec<Vec3>,
     /// Unit normals at the vertices.
     normals: Vec<Vec3>,
-    /// Directed edges with the vertex opposite to them, sorted.
+    /// Directed edges with their opposite vertices, sorted.
     edges: Vec<(u32, u32, u32)>,
 }
 
@@ -36,7 +37,7 @@ impl<'a> Outside<'a> {
     /// Reads the surroundings of a hole.
     ///
     /// # Errors
-    /// `Cancelled` when the job is stopped.
+    /// `Cancelled` when the job is cancelled.
     pub(crate) fn new(hole: &'a HoleShape, job: &Job<'_>) -> Result<Self> {
         let mut edges: Vec<(u32, u32, u32)> = hole
             .surroundings
@@ -48,7 +49,7 @@ impl<'a> Outside<'a> {
         job.ask()?;
         let band = Band::new(hole, job)?;
         let mut normals = band.triangle_normals.clone();
-        // Those of triangles would lean to one side at the rim.
+        // At the rim there are triangles on one side only, so their normals would be biased.
         let at_rim = band.interpolating_normals(hole.points.len(), job)?;
         normals[..at_rim.len()].copy_from_slice(&at_rim);
         Ok(Self {
@@ -77,8 +78,8 @@ impl<'a> Outside<'a> {
         found.map(|e| e.2)
     }
 
-    /// Places of the surface in the section's plane at the distances `step`, `2 step`, … from its base point `start`,
-    /// `count` of them, or fewer if the known triangles end before or the plane leaves them at once.
+    /// Samples of the surface in the section plane, at the distances `step`, `2 step`, … from the base point `start`
+    /// along the surface. There are `count` of them, or fewer if the known triangles end before.
     pub(crate) fn walk(
         &self,
         start: &BasePoint,
@@ -88,7 +89,7 @@ impl<'a> Outside<'a> {
     ) -> Vec<Known> {
         let m = self.hole.polygon.len();
         let side = |p: Vec3| (p - start.position).dot(&section.ahead);
-        // The known triangle has the rim's edge the other way round.
+        // The known triangle has the rim edge in the opposite direction.
         let mut from = self.hole.polygon[(start.edge + 1) % m];
         let mut to = self.hole.polygon[start.edge];
         let mut last = Known {
@@ -96,14 +97,14 @@ impl<'a> Outside<'a> {
             normal: start.normal,
         };
         let mut found = Vec::with_capacity(count);
-        // How much of the next step is done.
+        // The part of the next step that lies in triangles already passed.
         let mut done = 0.0;
         for _ in 0..TRIANGLES_PER_STEP * count {
             let Some(tip) = self.opposite(from, to) else {
                 break;
             };
             let [a, b, c] = [from, to, tip].map(|v| side(self.point(v)));
-            // Out through the edge whose ends the plane parts.
+            // The plane leaves through the edge whose ends are on different sides of it.
             let (p, q, s, t) = if (c > 0.0) == (a > 0.0) {
                 (tip, to, c, b)
             } else {
@@ -129,7 +130,7 @@ impl<'a> Outside<'a> {
             }
             done = length + step - at;
             last = next;
-            // Beyond the edge, the next triangle has it the other way round.
+            // The next triangle has this edge in the opposite direction.
             (from, to) = (p, q);
         }
         found

@@ -1,13 +1,14 @@
-//! Smoothing that does not shrink: of the surroundings (step 1) and of the patch (step 7).
+//! Taubin smoothing, which hardly shrinks a surface: of the surroundings (step 1) and of the patch (step 7).
+//!
+//! A step moves each point toward the mean of its neighbors; the next step moves it back by a bit more.
 //!
 //! Source: G. Taubin, "A signal processing approach to fair surface design", SIGGRAPH 1995, which W.-C. Xie and
-//! X.-F. Zou use in sections 4.1 and 4.7. `O(edges)` per step.
-//!
-//! Not guaranteed: that a curved surface keeps its place exactly; waves longer than the pass band stay.
+//! X.-F. Zou use in sections 4.1 and 4.7. `O(edges)` for each step. Not guaranteed: that a curved surface keeps its
+//! position exactly.
 
 use crate::math::Vec3;
 
-/// Taubin's factors: a Gaussian step, then one back. Their pass band, `1/λ + 1/μ`, is 0.1.
+/// The factors of the step forward and the step back. Their pass band, `1/λ + 1/μ`, is 0.1.
 const LAMBDA: f64 = 0.5;
 const MU: f64 = -LAMBDA / (1.0 - 0.1 * LAMBDA);
 
@@ -19,7 +20,7 @@ pub(super) struct NeighborLists {
 }
 
 impl NeighborLists {
-    /// Those along the edges of `triangles`, for `count` points.
+    /// The neighbors along the edges of `triangles`, for `count` points.
     pub(super) fn new(triangles: &[[u32; 3]], count: usize) -> Self {
         Self::of_edges(
             triangles
@@ -51,7 +52,7 @@ impl NeighborLists {
     }
 }
 
-/// Smooths the points for which `is_free`, alternating the two kinds of step.
+/// Smooths the points for which `is_free` holds. `steps` counts the steps forward and the steps back.
 pub(super) fn smooth(
     points: &mut [Vec3],
     neighbors: &NeighborLists,

@@ -70,7 +70,7 @@ impl<'a> Facets<'a> {
     /// Finds the edges that triangles share.
     ///
     /// # Errors
-    /// `Cancelled` when the job is stopped.
+    /// `Cancelled` when the job is cancelled.
     pub(super) fn find_edges(&mut self, job: &Job<'_>) -> Result<()> {
         let vertex_count = self.hole.points.len() + self.hole.surroundings.points.len();
         self.edges = shared_edges(self.triangles(), vertex_count, job)?;
@@ -122,7 +122,7 @@ impl<'a> Facets<'a> {
     /// Filters noise from the normals.
     ///
     /// # Errors
-    /// `Cancelled` when the job is stopped.
+    /// `Cancelled` when the job is cancelled.
     pub(super) fn filter_normals(&mut self, job: &Job<'_>) -> Result<()> {
         job.ask()?;
         let mut differences: Vec<f64> = self

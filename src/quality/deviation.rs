@@ -1,16 +1,16 @@
-//! Deviation between two surfaces: distances both ways, normals, and the APE and MPE of the papers.
+//! Measures the deviation between two surfaces: distances in both directions, angles between normals, and the error
+//! measures APE and MPE of papers.
 //!
-//! Each surface is sampled densely, in proportion to area: the samples divide its total area into
-//! equal shares, and their places within the triangles follow the R2 sequence, so the result has no
-//! random part. Every sample and every vertex is measured to the closest point of the other
-//! surface.
+//! Each surface is sampled densely, in proportion to area. The positions of samples in the triangles follow the R2
+//! sequence, so the result is not random. For each sample and each vertex, the distance to the closest point of the
+//! other surface is measured.
 //!
-//! APE and MPE are based on: W.-C. Xie, X.-F. Zou, A triangulation-based hole patching method using
-//! differential evolution, Computer-Aided Design 45(12), 2013, eq. 17.
-//! Sequence: M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018.
+//! Sources: W.-C. Xie, X.-F. Zou, A triangulation-based hole patching method using differential evolution,
+//! Computer-Aided Design 45(12), 2013, eq. 17, for APE and MPE; M. Roberts, The Unreasonable Effectiveness of
+//! Quasirandom Sequences, 2018, for the sequence.
 //!
-//! Complexity: O((n + s) log n) for n triangles and s samples, in parallel. Not guaranteed: the
-//! maximum is that over samples and vertices, a lower bound of the Hausdorff distance.
+//! Complexity: O((n + s) log n) for n triangles and s samples, in parallel. Not guaranteed: the exact Hausdorff
+//! distance. The maximum over samples and vertices is a lower bound of it.
 
 use super::{
     Surface, quantile,
@@ -158,7 +158,7 @@ fn compare_surfaces(a: Surface<'_>, b: Surface<'_>) -> Result<Deviation> {
     })
 }
 
-/// What was found from one surface to another.
+/// The measurements from one surface to another.
 struct Measured {
     distances: OneWay,
     /// Face of the sample and nearest face of the other surface.
@@ -244,7 +244,7 @@ fn sample(surface: Surface<'_>) -> Vec<(u32, Vec3)> {
             }
             let [a, b, c] = surface.corners(face);
             let [r, s] = R2.map(|step| (k as f64 * step).fract());
-            // The square root makes the density even between the corner `a` and its far edge.
+            // The square root makes the density uniform between the corner `a` and the edge opposite to it.
             let root = r.sqrt();
             (
                 face as u32,
@@ -279,7 +279,7 @@ fn normal_angles(a: Surface<'_>, b: Surface<'_>, samples: &[(u32, u32)]) -> Opti
 fn point_errors(a: Surface<'_>, b: Surface<'_>, distances: &[(u32, f64)]) -> Option<PointErrors> {
     let single = is_single_precision(a) || is_single_precision(b);
     let key = |p: &Vec3| -> [u64; 3] {
-        // Adding zero makes both zeros one.
+        // Adding zero turns -0.0 into 0.0.
         std::array::from_fn(|k| {
             let x = if single { f64::from(p[k] as f32) } else { p[k] };
             (x + 0.0).to_bits()

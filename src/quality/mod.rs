@@ -1,7 +1,6 @@
-//! Judges surfaces: shape, topology, deviation, self-intersection.
+//! Measures the quality of surfaces: shape of triangles, topology, deviation, self-intersection.
 //!
-//! Everything here takes plain slices, so that any layer and any test can ask; nothing here changes
-//! what it judges.
+//! All functions take plain slices, so that any layer and any test can call them. They change nothing.
 
 pub(crate) mod closest;
 pub mod deviation;

@@ -1,4 +1,4 @@
-//! A static spatial index over the faces of a mesh.
+//! A static spatial index over the faces of a mesh: a tree of their boxes, for searches by box and by distance.
 
 use super::{Surface, closest::closest_on_triangle};
 use crate::error::Result;

@@ -1,11 +1,13 @@
-//! Normals of points, as lines without a sign: the direction in which the nearest points spread least.
+//! Estimates normals of points, without a sign: the direction in which the nearest points spread least.
 //!
-//! Based on H. Hoppe, T. DeRose, T. Duchamp, J. McDonald, W. Stuetzle, Surface reconstruction from
-//! unorganized points, SIGGRAPH 1992, section 3.1: the eigenvector of the smallest eigenvalue of the
-//! covariance of the neighbors. Where the nearest points lie along a line, as on a scan line, they say
-//! nothing about the plane, and more of them are taken.
+//! It is the eigenvector of the smallest eigenvalue of the covariance of the neighbors. If the nearest points lie on a
+//! line, as on a scan line, they determine no plane, and more points are taken.
 //!
-//! Complexity: O(k) per point for k neighbors. Across a crease the normal is a mean of both sides.
+//! Source: H. Hoppe, T. DeRose, T. Duchamp, J. McDonald, W. Stuetzle, Surface reconstruction from unorganized points,
+//! SIGGRAPH 1992, section 3.1.
+//!
+//! Complexity: O(k) for each point with k neighbors. Not guaranteed: exact normals at a crease, where the estimate is a
+//! mean of both sides.
 
 use super::cloud::{Cloud, NearestPoints, for_all};
 use crate::error::Result;
@@ -13,14 +15,16 @@ use crate::job::Job;
 use crate::math::Vec3;
 use nalgebra::{Matrix3, SymmetricEigen};
 
-/// NearestPoints that determine a normal.
+/// Number of neighbors that determine a normal.
 pub(super) const NORMAL_NEIGHBORS: usize = 12;
-/// A neighborhood counts as a line where its spread across is less than this share of that along it.
+
+/// Neighbors lie on a line if their second largest spread is below this share of the largest.
 const LINE_SPREAD: f64 = 0.15;
-/// How many times as many neighbors are tried where the nearest ones are a line.
+
+/// Factors on the number of neighbors, tried in turn if the neighbors lie on a line.
 const WIDER: [usize; 2] = [2, 4];
 
-/// Unit normals: the `known` ones, else estimated, of either sign; zero where the points near are on a line.
+/// Unit normals: the `known` ones, otherwise estimated ones of either sign. Zero where the neighbors lie on a line.
 ///
 /// # Errors
 /// `Cancelled` when the job is cancelled.
@@ -78,7 +82,7 @@ fn spread(cloud: &Cloud, v: u32, near: &[u32]) -> Spread {
     let offsets = || near.iter().map(|&w| cloud.points[w as usize] - at);
     let count = near.len() as f64 + 1.0;
     let centroid = offsets().sum::<Vec3>() / count;
-    // The farthest is the last; relative to it nothing underflows.
+    // The last neighbor is the farthest. Dividing by its distance avoids underflow.
     let unit = offsets().next_back().map_or(1.0, |d| d.norm());
     let mut covariance = Matrix3::zeros();
     for d in offsets().chain(std::iter::once(Vec3::zeros())) {

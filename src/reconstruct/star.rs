@@ -1,12 +1,12 @@
-//! The triangles round one point: its star in the Delaunay triangulation of its tangent plane.
+//! The star of a point: the triangles round it in the Delaunay triangulation of its tangent plane.
 //!
-//! Based on M. Gopi, S. Krishnan, C. Silva, Surface reconstruction based on lower dimensional localized
-//! Delaunay triangulation, Eurographics 2000: the neighbors of a point are turned into its tangent plane, and
-//! those that are its Delaunay neighbors there are kept. They are inserted one by one, nearest first, into a
-//! cyclic list; only the triangles at the point itself are ever looked at.
+//! The neighbors of the point are mapped to its tangent plane, and its Delaunay neighbors there are kept. They are
+//! inserted one by one, nearest first, into a cyclic list. Only triangles at the point itself are computed. Points on a
+//! common circle are always triangulated from the point with the lowest index, so that the stars of a regular grid
+//! agree.
 //!
-//! Points on a common circle are triangulated from the one with the lowest index, whichever star asks, so that
-//! stars on a grid agree.
+//! Source: M. Gopi, S. Krishnan, C. Silva, Surface reconstruction based on lower dimensional localized
+//! Delaunay triangulation, Eurographics 2000.
 //!
 //! Complexity: O(k d) for k neighbors and d Delaunay neighbors.
 
@@ -35,7 +35,7 @@ impl Star {
         star
     }
 
-    /// No triangles.
+    /// A star without triangles.
     pub(super) fn empty(center: u32) -> Self {
         Self {
             center,
@@ -75,7 +75,7 @@ impl Star {
         self.drop_before(index);
     }
 
-    /// Where `place` belongs in the ring; `None` behind a neighbor in the same direction.
+    /// The position of `place` in the ring; `None` when it lies behind a neighbor in the same direction.
     fn slot(&self, place: TangentPlace) -> Option<usize> {
         let is_behind =
             |p: TangentPlace| turn(p, place) == 0.0 && p.x * place.x + p.y * place.y > 0.0;
@@ -91,14 +91,14 @@ impl Star {
             let is_inside = if turn(p, q) > 0.0 {
                 is_between(p, place, q)
             } else {
-                // A gap of half a turn or more: what is not in the sector the other way round.
+                // The gap is half a turn or more: it is the complement of the other sector.
                 !is_between(q, place, p)
             };
             is_inside.then_some(k + 1)
         })
     }
 
-    /// Whether `x` is a Delaunay neighbor of the center although `a` and `b` are, on either side of it.
+    /// Whether `x` is a Delaunay neighbor of the center, given the neighbors `a` and `b` on its two sides.
     fn prefers(
         &self,
         x: (u32, TangentPlace),
@@ -107,14 +107,14 @@ impl Star {
     ) -> bool {
         let inside = in_circle(a.1, b.1, x.1);
         if inside == 0.0 {
-            // The diagonal from the lowest index.
+            // On a common circle, the diagonal starts at the lowest index.
             self.center.min(x.0) < a.0.min(b.0)
         } else {
             inside > 0.0
         }
     }
 
-    /// Drops the neighbors after `index` that it has cut off from the center.
+    /// Removes the neighbors after `index` that are no Delaunay neighbors any more.
     fn drop_after(&mut self, index: u32) {
         while self.ring.len() >= 3 {
             let count = self.ring.len();
@@ -130,7 +130,7 @@ impl Star {
         }
     }
 
-    /// Drops the neighbors before `index` that it has cut off from the center.
+    /// Removes the neighbors before `index` that are no Delaunay neighbors any more.
     fn drop_before(&mut self, index: u32) {
         while self.ring.len() >= 3 {
             let count = self.ring.len();

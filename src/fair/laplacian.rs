@@ -1,36 +1,37 @@
-//! The Laplacian of a patch together with the triangles round it.
+//! The discrete Laplacian of a patch joined to the triangles round it: edge weights and vertex areas.
 //!
-//! Based on: U. Pinkall, K. Polthier, "Computing discrete minimal surfaces and their conjugates",
-//! Experimental Mathematics 2(1), 1993 (cotangent weights); lumped areas as in M. Botsch, L. Kobbelt,
-//! "An intuitive framework for real-time freeform modeling", ACM TOG 23(3), 2004; Voronoi areas as in M. Meyer,
-//! M. Desbrun, P. Schröder, A. H. Barr, "Discrete differential-geometry operators for triangulated 2-manifolds",
-//! VisMath 2002, section 3.3.
+//! Sources: U. Pinkall, K. Polthier, "Computing discrete minimal surfaces and their conjugates", Experimental
+//! Mathematics 2(1), 1993, for cotangent weights; M. Botsch, L. Kobbelt, "An intuitive framework for real-time
+//! freeform modeling", ACM TOG 23(3), 2004, for lumped areas; M. Meyer, M. Desbrun, P. Schröder, A. H. Barr,
+//! "Discrete differential-geometry operators for triangulated 2-manifolds", VisMath 2002, section 3.3, for Voronoi
+//! areas.
+//!
+//! Cost: linear in the number of triangles.
 
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal};
 use crate::patch::{PatchSurface, Surroundings};
 
-/// Cotangents are limited to those of an angle of about half a degree: beyond it they carry more rounding
-/// than shape.
+/// Upper bound on a cotangent, that of about half a degree. A larger one is mostly rounding error.
 const LARGEST_COTANGENT: f64 = 100.0;
-/// The same for Voronoi weights: the cotangent of the angle whose cosine is 0.999, as CGAL limits it.
+/// Upper bound on a cosine for Voronoi weights, as in CGAL.
 const LARGEST_COSINE: f64 = 0.999;
-/// Vertex areas are at least this share of the mean one, so that a sliver does not outweigh everything.
+/// Lower bound on a vertex area, as a share of the mean area, so that a sliver does not dominate the energy.
 const SMALLEST_AREA_SHARE: f64 = 1e-3;
 
 /// Edge weights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Weights {
-    /// One for each edge, and area one for each vertex: needs no shape, so it serves as a start.
+    /// Weight 1 for each edge, area 1 for each vertex. They do not depend on the shape, so they serve for a start.
     Uniform,
-    /// One for each edge, and as area of a vertex the number of its edges: with order two the second-order
-    /// umbrella vector of every interior vertex vanishes at the minimum.
+    /// Weight 1 for each edge; the area of a vertex is its valence. With order two, the second-order umbrella vector of
+    /// every interior vertex is zero at the minimum.
     Umbrella,
-    /// Half the cotangents of the opposite angles, and a third of the triangles' areas.
+    /// Half the sum of the cotangents of the opposite angles; the area is a third of the triangles' areas.
     Cotangent,
-    /// The same cotangents, and the triangles' shares of the Voronoi cells. Nothing but the cotangents is limited, and
-    /// negative weights count: what CGAL does, for comparison with it.
+    /// The same weights; the area is that of the Voronoi cell. Only the cotangents are limited, and negative weights
+    /// count. This is what CGAL does, for comparison with it.
     Voronoi,
 }
 
@@ -56,9 +57,9 @@ pub(crate) struct FairingDomain {
     entries: Vec<Coefficient>,
     /// Area of each vertex.
     pub(crate) areas: Vec<f64>,
-    /// Where the Laplacian is a quadratic form, whether negative weights count.
+    /// Whether negative weights count in the Laplacian as a quadratic form.
     has_negative: bool,
-    /// Whether all edges at the vertex have two triangles, so that its row is that of the closed surface.
+    /// Whether all edges at the vertex have two triangles, so that its row is complete.
     pub(crate) is_complete: Vec<bool>,
 }
 
@@ -130,7 +131,7 @@ impl FairingDomain {
         &self.entries[self.row_starts[vertex] as usize..self.row_starts[vertex + 1] as usize]
     }
 
-    /// The weight of an entry where the Laplacian is a quadratic form.
+    /// The weight of an entry in the Laplacian as a quadratic form.
     pub(crate) fn form_weight(&self, entry: &Coefficient) -> f64 {
         if self.has_negative {
             entry.weight
@@ -150,7 +151,7 @@ impl FairingDomain {
         for v in 0..count {
             starts[v + 1] += starts[v];
         }
-        // Row and half of the weight of each edge, for either direction, by column.
+        // For each edge and both directions: row and half of the weight, sorted by column.
         let mut slots = starts.clone();
         let mut by_column = vec![(0_u32, 0.0); 6 * self.triangles.len()];
         job.ask()?;
@@ -172,7 +173,7 @@ impl FairingDomain {
                 self.areas[t[k] as usize] += areas[k];
             }
         }
-        // Taken column by column, the entries of each row come in ascending order.
+        // Columns are taken in order, so the entries of each row are in ascending order.
         slots.copy_from_slice(&starts);
         let zero = Coefficient {
             column: 0,
@@ -233,7 +234,7 @@ impl FairingDomain {
     }
 }
 
-/// Cotangent of the angle at each corner, and a third of the area for each.
+/// The cotangent of the angle at each corner, and a third of the area for each corner.
 fn cotangents_and_thirds(corners: [&Vec3; 3]) -> ([f64; 3], [f64; 3]) {
     let double_area = cross_normal(corners[0], corners[1], corners[2]).norm();
     let cotangent = |k: usize| {
@@ -253,8 +254,8 @@ fn cotangents_and_thirds(corners: [&Vec3; 3]) -> ([f64; 3], [f64; 3]) {
     )
 }
 
-/// Cotangent of the angle at each corner, and the corner's share of the area: what is nearest to it, or where an angle
-/// is obtuse half of the area at that angle and a quarter at the others.
+/// The cotangent of the angle at each corner, and the corner's share of the area. The share is the part nearest to the
+/// corner. In an obtuse triangle it is half of the area at the obtuse angle and a quarter at the others.
 fn cotangents_and_cells(corners: [&Vec3; 3]) -> ([f64; 3], [f64; 3]) {
     let double_area = cross_normal(corners[0], corners[1], corners[2]).norm();
     let side = |k: usize| corners[(k + 2) % 3] - corners[(k + 1) % 3];

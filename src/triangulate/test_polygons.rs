@@ -1,4 +1,4 @@
-//! Rims for the tests of this module.
+//! Polygons of holes for the tests of this module.
 
 use super::polygon::HolePolygon;
 use crate::math::{Vec3, cross_normal, unit};

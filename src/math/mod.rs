@@ -1,4 +1,4 @@
-//! Vectors, planes, boxes, random numbers and the sparse solver: no mesh, no hole.
+//! Mathematics without meshes: vectors, planes, boxes, search trees, random numbers, linear solvers.
 
 pub(crate) mod aabb;
 mod background;

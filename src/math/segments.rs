@@ -1,4 +1,4 @@
-//! Distance from a set of line segments.
+//! The distance from a point to a set of line segments, with an index for many segments.
 
 use super::Vec3;
 use super::aabb::Aabb;

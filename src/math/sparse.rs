@@ -1,5 +1,5 @@
-//! Sparse symmetric positive definite systems: small ones are solved within their envelope, large ones by the
-//! supernodal Cholesky factorization of `faer`.
+//! Solves sparse symmetric positive definite systems: small ones by Cholesky factorization within the envelope, large
+//! ones by the supernodal Cholesky factorization of `faer`.
 
 use super::Vec3;
 use super::background::run_in_background;
@@ -12,16 +12,19 @@ use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Mat, Side};
 
-/// Systems of more unknowns than this are not worth a look at their envelope.
+/// Upper bound on the unknowns of a system for which the envelope is computed.
 const ENVELOPE_UNKNOWNS: usize = 4096;
-/// Multiplications up to which the envelope is faster than the bookkeeping of a sparse factorization.
+
+/// Upper bound on the multiplications of a factorization within the envelope. With more, the sparse factorization is
+/// faster.
 const ENVELOPE_WORK: u64 = 10_000_000;
 
-/// Systems of more unknowns are solved on a thread of their own, for which nobody has to wait who wants to stop: the
-/// steps of the factorization cannot be cancelled. Up to here each takes some milliseconds.
+/// Upper bound on the unknowns of a system that is solved on the calling thread. The steps of a factorization cannot
+/// be cancelled; up to this size each takes some milliseconds. A larger system is solved on a thread of its own, so
+/// that the caller can be cancelled.
 const WAITED_FOR: usize = 10_000;
 
-/// Added to the diagonal, relative to its mean, against loss of definiteness by rounding.
+/// Added to the diagonal, relative to its mean, so that rounding errors do not make the matrix indefinite.
 const RELATIVE_SHIFT: f64 = 1e-12;
 
 /// A solver that keeps the symbolic factorization while the pattern of the matrix stays the same.
@@ -32,7 +35,7 @@ pub(crate) struct SpdSolver<'a> {
 }
 
 impl<'a> SpdSolver<'a> {
-    /// A solver that knows no pattern yet.
+    /// A solver without a symbolic factorization.
     pub(crate) fn new(job: &'a Job<'a>) -> Self {
         Self {
             job,
@@ -41,7 +44,7 @@ impl<'a> SpdSolver<'a> {
         }
     }
 
-    /// What the solver works for, for the work that makes the system.
+    /// The job of the solver, for the code that builds the system.
     pub(crate) fn job(&self) -> &'a Job<'a> {
         self.job
     }
@@ -94,7 +97,7 @@ impl<'a> SpdSolver<'a> {
     }
 }
 
-/// Solves a large system; `known` is the symbolic factorization of its pattern, if there is one yet.
+/// Solves a large system. `known` is the symbolic factorization of its pattern, if there is one.
 fn factor_and_solve(
     matrix: &SymmetricMatrix,
     known: Option<SymbolicLlt<u32>>,

@@ -1,4 +1,4 @@
-//! Sparse symmetric matrices as the solvers take them.
+//! The storage of sparse symmetric matrices for the solvers.
 
 /// The lower triangle of a symmetric matrix, column by column, with ascending rows.
 ///

@@ -1,4 +1,4 @@
-//! What users choose for a fill.
+//! [`FillOptions`]: everything that users can choose for filling holes.
 
 pub(crate) mod attributes;
 pub(crate) mod entry;
@@ -77,7 +77,7 @@ static PARAMETERS: LazyLock<Vec<Parameter>> = LazyLock::new(|| {
 });
 
 impl FillOptions {
-    /// Every option that [`FillOptions::set`] knows, each method's together.
+    /// All options that [`FillOptions::set`] knows, grouped by method.
     pub fn parameters() -> impl Iterator<Item = &'static Parameter> {
         PARAMETERS.iter()
     }
@@ -110,7 +110,7 @@ impl FillOptions {
     /// Checks that every option is in its range, however it was set.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] for the first one that is not, as [`FillOptions::set`] would say it.
+    /// [`ErrorKind::InvalidInput`] for the first option out of its range, with the message of [`FillOptions::set`].
     pub(crate) fn check(&self) -> Result<()> {
         Self::parameters().try_for_each(|parameter| parameter.check(self))
     }

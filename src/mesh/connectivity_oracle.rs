@@ -1,4 +1,4 @@
-//! The connectivity of arbitrary triangles against a slow, plain reading of its definition.
+//! Tests: compares the connectivity of arbitrary triangles with a slow, simple implementation of its definition.
 
 use super::connectivity::Connectivity;
 use super::defects::{Defect, MeshDefects};

@@ -1,4 +1,4 @@
-//! Halfedges by their numbers: `3 * f + k` runs from corner `k` of triangle `f` to corner `(k + 1) % 3`.
+//! The numbering of halfedges: `3 * f + k` runs from corner `k` of triangle `f` to corner `(k + 1) % 3`.
 
 /// Link of a halfedge whose edge has one triangle.
 pub(crate) const BOUNDARY: u32 = u32::MAX;

@@ -1,4 +1,4 @@
-//! Triangle meshes: indices, positions and attributes, and who is whose neighbor.
+//! Triangle meshes: positions, triangles, attributes, connectivity, and the rings round a rim.
 
 #[cfg_attr(
     not(feature = "io"),

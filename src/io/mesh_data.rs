@@ -1,4 +1,4 @@
-//! The contents of a mesh file, whatever its format, and what all formats check.
+//! [`MeshData`], the contents of a mesh file of any format, and checks that several formats share.
 
 use super::ply::details::PlyDetails;
 use crate::error::{Error, ErrorKind, Result};
@@ -7,20 +7,20 @@ use crate::mesh::attributes::{AttributeValues, Attributes, ScalarType};
 /// The contents of a mesh file.
 #[derive(Clone, Debug)]
 pub struct MeshData {
-    /// One position per vertex. Single precision is widened exactly.
+    /// One position for each vertex. Single precision is converted exactly.
     pub positions: Vec<[f64; 3]>,
     /// Three indices of vertices per triangle; polygons are cut into triangles by [`read`].
     pub triangles: Vec<[u32; 3]>,
-    /// What else the file says per vertex: colors, normals, ...
+    /// Other data of vertices: colors, normals, ...
     pub vertex_attributes: Attributes,
-    /// What else the file says per triangle.
+    /// Other data of triangles.
     pub face_attributes: Attributes,
-    /// The precision of the positions in the file, [`ScalarType::F32`] or [`ScalarType::F64`]; any
-    /// other type is taken for the latter.
+    /// The precision of the positions in the file, [`ScalarType::F32`] or [`ScalarType::F64`]. Any other type counts as
+    /// the latter.
     pub position_type: ScalarType,
-    /// What only a PLY file says; other formats leave it at its default.
+    /// Details that only PLY files have. Other formats leave the default.
     pub ply: PlyDetails,
-    /// What was left out or changed on reading, one sentence each.
+    /// What was left out or changed while reading, one sentence for each.
     pub notes: Vec<String>,
 }
 
@@ -77,7 +77,7 @@ impl MeshData {
     }
 }
 
-/// Refuses positions that are finite as they are but not in single precision.
+/// Refuses finite positions that are not finite in single precision.
 pub(super) fn check_single_precision(mesh: &MeshData) -> Result<()> {
     let overflows = |&x: &f64| x.is_finite() && !(x as f32).is_finite();
     match mesh.positions.iter().position(|p| p.iter().any(overflows)) {
@@ -88,7 +88,7 @@ pub(super) fn check_single_precision(mesh: &MeshData) -> Result<()> {
     }
 }
 
-/// The number of vertices, if `u32` can number them.
+/// The number of vertices as `u32`. An error if it does not fit.
 pub(super) fn check_vertex_count(count: usize) -> Result<()> {
     if count > u32::MAX as usize {
         return Err(Error::new(

@@ -1,4 +1,4 @@
-//! What a PLY file says that other formats cannot.
+//! [`PlyDetails`]: the parts of a PLY file that other formats do not have.
 
 use crate::mesh::attributes::{Attributes, ScalarType};
 
@@ -30,25 +30,25 @@ impl PlyEncoding {
 /// An element of a PLY file that is neither vertex nor face.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlyElement {
-    /// As in the header, such as `edge`.
+    /// The name in the header, such as `edge`.
     pub name: String,
-    /// One entry per row.
+    /// The rows, with one entry for each.
     pub rows: Attributes,
 }
 
-/// What a PLY file says that other formats cannot, so that it can be written again.
+/// The parts of a PLY file that other formats do not have. They are kept so that they can be written again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlyDetails {
-    /// How the numbers are stored.
+    /// The encoding of numbers.
     pub encoding: PlyEncoding,
-    /// The `comment` and `obj_info` lines of the header, whole and in order.
+    /// The `comment` and `obj_info` lines of the header, complete and in order.
     pub remarks: Vec<String>,
     /// The elements other than vertex and face, in order.
     pub elements: Vec<PlyElement>,
     pub(super) corner_list: CornerList,
-    /// How many vertex attributes come before the position.
+    /// Number of vertex attributes before the position.
     pub(super) vertex_attributes_before: usize,
-    /// How many face attributes come before the list of corners.
+    /// Number of face attributes before the list of corners.
     pub(super) face_attributes_before: usize,
 }
 

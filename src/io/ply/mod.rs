@@ -1,4 +1,4 @@
-//! PLY, the polygon file format: any properties, in text or binary.
+//! Reads and writes PLY, the polygon file format: any elements and properties, as text or binary.
 
 mod body;
 pub(super) mod details;
@@ -16,7 +16,8 @@ use crate::mesh::attributes::{AttributeValues, Attributes, ListValues, ScalarTyp
 use details::{CornerList, PlyDetails, PlyElement, PlyEncoding};
 use header::{Element, Header};
 
-/// How many values of face properties a byte of file may grow to when polygons are cut.
+/// Upper bound on the values of face attributes after polygons are cut into triangles, divided by the bytes of the
+/// file. It protects against files that would need far more memory than they have bytes.
 const REPEATED_VALUES_PER_BYTE: usize = 64;
 
 const CORNER_LIST_NAMES: [&str; 2] = ["vertex_indices", "vertex_index"];
@@ -106,7 +107,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<MeshData> {
     })
 }
 
-/// Text after the last row means that a count is wrong; binary files may be padded.
+/// Refuses text after the last row of a text file, because then a count is wrong. Binary files may be padded.
 fn check_end(mut body: Lines, encoding: PlyEncoding, notes: &mut Vec<String>) -> Result<()> {
     let is_padding = body
         .rest()
@@ -126,7 +127,7 @@ fn check_end(mut body: Lines, encoding: PlyEncoding, notes: &mut Vec<String>) ->
     Ok(())
 }
 
-/// Takes the position out of the vertex columns; the rest of the result is left empty.
+/// Takes the positions out of the vertex columns. All other fields of the result are empty.
 fn read_vertices(
     table: Table,
     details: &mut PlyDetails,

@@ -1,4 +1,4 @@
-//! A mesh written as PLY.
+//! Writes a mesh as PLY.
 
 use super::super::mesh_data::{MeshData, check_single_precision};
 use super::details::{PlyDetails, PlyEncoding};
@@ -153,7 +153,7 @@ fn split(attributes: &Attributes, before: usize) -> (&[Attribute], &[Attribute])
     columns.split_at(before.min(columns.len()))
 }
 
-/// The type the file had for its indices, or the next wider one that can number all vertices.
+/// The type for vertex indices: that of the file that was read, or the next wider type that can number all vertices.
 fn index_type(details: &PlyDetails, vertex_count: usize) -> ScalarType {
     [details.corner_list.index_type, ScalarType::I32]
         .into_iter()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Fill Holes (holefill) makes is what the library makes, and everything that was there stays."""
+"""Fill Holes (holefill) gives the results of the library, and keeps all existing elements."""
 import unittest
 
 import numpy as np
@@ -11,7 +11,7 @@ from common import (FILL, HAS_POINT_ATTRIBUTES, boundary_edges, case, fill_by_li
 
 class Filled(unittest.TestCase):
     def assert_as_library(self, ms, **choice):
-        """Fills the current mesh by the filter; the result is the library's, bit for bit."""
+        """Fills the current mesh by the filter. The result must be that of the library, bit for bit."""
         before = ms.current_mesh()
         positions, triangles = before.vertex_matrix(), before.face_matrix()
         names = {"max_edges": "maxholesize", "max_perimeter": "maxperimeter", "keep_largest": "keeplargest"}
@@ -23,7 +23,7 @@ class Filled(unittest.TestCase):
         mesh = ms.current_mesh()
         np.testing.assert_array_equal(mesh.face_matrix(), expected_triangles)
         np.testing.assert_array_equal(mesh.vertex_matrix(), expected_positions)
-        # What was there is a part of it.
+        # The existing elements come first, unchanged.
         np.testing.assert_array_equal(mesh.vertex_matrix()[:len(positions)], positions)
         np.testing.assert_array_equal(mesh.face_matrix()[:len(triangles)], triangles)
         self.assertEqual(result["new_vertices"], len(expected_positions) - len(positions))
@@ -211,7 +211,7 @@ class Values(unittest.TestCase):
         mesh = ms.current_mesh()
         after = values_of(mesh)
         x, y, z = mesh.vertex_matrix()[vertices:].T
-        # These are linear in the position, and so is what is continued, but for rounding to a byte.
+        # These are linear in the position. So are the interpolated values, except for rounding to a byte.
         np.testing.assert_allclose(after["vertex quality"][vertices:], 2 * x + y, atol=1e-3)
         np.testing.assert_allclose(after["height"][vertices:], x - 3 * z, atol=1e-3)
         if HAS_POINT_ATTRIBUTES:
@@ -223,7 +223,7 @@ class Values(unittest.TestCase):
         self.assertTrue((after["region"][faces:] == 7).all())
         np.testing.assert_array_equal(after["face color"][faces:], np.tile(after["face color"][0], (len(after["face"]) - faces, 1)))
         self.assertTrue((np.isin(after["face quality"][faces:], np.arange(faces))).all())
-        # Each corner has the coordinates of its place.
+        # The coordinates of a corner depend on its position.
         corners = after["face"][faces:].reshape(-1)
         places = mesh.vertex_matrix()[corners]
         wedges = after["wedge texture"][3 * faces:]

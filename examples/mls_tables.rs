@@ -78,10 +78,10 @@ const TABLE_1: [Row; 5] = [
 
 fn main() -> Result<()> {
     let (models, results) = folders()?;
-    let mut page = String::from("# Moving least squares beside the paper\n\n");
+    let mut page = String::from("# Moving least squares compared with the paper\n\n");
     writeln!(
         page,
-        "J. Wang, M. M. Oliveira, \"Filling holes on locally smooth surfaces reconstructed from point clouds\", 2006. Made by {}. Seconds are processor time of the whole fill with its checks, on one thread, the least of {RUNS} runs. The paper's are from a Pentium 4 with 2.0 GHz.\n",
+        "J. Wang, M. M. Oliveira, \"Filling holes on locally smooth surfaces reconstructed from point clouds\", 2006. Made by {}. Seconds are processor time of the whole fill with its checks, on one thread, the least of {RUNS} runs. The paper used a Pentium 4 with 2.0 GHz.\n",
         command("mls_tables")
     )?;
     table_1(&mut page, &models)?;
@@ -98,7 +98,7 @@ fn options(parameters: &[(&str, &str)]) -> Result<FillOptions> {
 }
 
 fn table_1(page: &mut String, models: &Path) -> Result<()> {
-    page.push_str("## Table 1: statistics and running times\n\nThe paper's models are not at hand, but for the bunny; each row has one of ours beside it that is as near as we have. `mls` holes are those that the method filled, of all.\n\n");
+    page.push_str("## Table 1: statistics and running times\n\nOf the paper's models we only have the bunny. Each row compares a model of the paper with our most similar one. `mls` holes: the holes that the method itself filled, of all.\n\n");
     page.push_str("| paper | vertices | after | new | seconds | ours | vertices | after | new | `mls` holes | seconds | paper's over ours |\n");
     page.push_str(
         "| --- | ---: | ---: | ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
@@ -129,7 +129,7 @@ fn table_1(page: &mut String, models: &Path) -> Result<()> {
 
 /// Tables 3 and 4: two caps of a sphere.
 fn caps(page: &mut String, models: &Path) -> Result<()> {
-    page.push_str("\n## Tables 3 and 4: caps of a sphere\n\nA sphere of radius 5 without a cap of half-angle 30 and 60 degrees; 180 points of the vicinity each (Table 3). The error is the mean distance of the new vertices from the sphere, over its radius. The plane makes the paper's \"egg\" of the larger cap; the curved domain does not. `auto` is the default.\n\n");
+    page.push_str("\n## Tables 3 and 4: caps of a sphere\n\nA sphere of radius 5 without a cap of half-angle 30 and 60 degrees; 180 points of the vicinity each (Table 3). The error is the mean distance of the new vertices from the sphere, over its radius. On the larger cap, the plane gives the \"egg\" of the paper; the curved domain does not. `auto` is the default.\n\n");
     page.push_str(
         "| model | vertices | triangles | after, paper | after, ours | domain | mean error | seconds |\n",
     );
@@ -158,7 +158,7 @@ fn caps(page: &mut String, models: &Path) -> Result<()> {
 
 /// Holes of the sizes in the paper's Table 1, each as one cap of a sphere.
 fn rows_by_size(page: &mut String) -> Result<()> {
-    page.push_str("\n## Table 1 by size\n\nThe cost depends on the points of the vicinity m and the samples k. One hole each with at least the m and the k of the paper's row, in a sphere:\n\n| paper | m | k | seconds | ours m | k | seconds | paper's over ours |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+    page.push_str("\n## Table 1 by size\n\nThe cost depends on the points of the vicinity m and the samples k. Each row is one hole in a sphere, with at least the m and the k of the paper:\n\n| paper | m | k | seconds | ours m | k | seconds | paper's over ours |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
     for row in &TABLE_1 {
         let samples = row.vertices_after - row.vertices_before;
         // So that the vicinity ends well before the equator, where the plane would see it fold.
@@ -190,7 +190,7 @@ fn rows_by_size(page: &mut String) -> Result<()> {
 
 /// The time over m, and over k.
 fn cost(page: &mut String, results: &Path) -> Result<()> {
-    page.push_str("\n## Cost over m and k\n\n![Time over m k](mls-cost.svg)\n\nCaps of one sphere. Over m: one hole of 30 degrees, with a wider and wider vicinity. Over k: wider and wider holes with three parallels of vicinity. Over both: finer and finer spheres. The time over m k tends to a constant; what is left where m k is small is the triangulation and the checks.\n\n| | m | k | seconds | nanoseconds / (m k) |\n| --- | ---: | ---: | ---: | ---: |\n");
+    page.push_str("\n## Cost over m and k\n\n![Time over m k](mls-cost.svg)\n\nCaps of one sphere. Over m: one hole of 30 degrees, with a wider and wider vicinity. Over k: wider and wider holes with three parallels of vicinity. Over both: finer and finer spheres. The time over m k tends to a constant. Where m k is small, the triangulation and the checks dominate.\n\n| | m | k | seconds | nanoseconds / (m k) |\n| --- | ---: | ---: | ---: | ---: |\n");
     let over_m = [2, 3, 4, 6, 8, 11, 15].map(|rows| (120, 30, rows));
     let over_k = [9, 12, 15, 21, 30, 39, 45].map(|degrees| (120, degrees, 3));
     let over_both = [24, 36, 60, 96, 144, 192, 240].map(|meridians| (meridians, 30, 3));
@@ -282,7 +282,7 @@ fn area([a, b, c]: [[f64; 3]; 3]) -> f64 {
 
 /// The vertices alone, to a mesh, and its holes filled.
 fn from_points(page: &mut String, models: &Path) -> Result<()> {
-    page.push_str("\n## From points alone\n\nThe vertices of three models without their triangles, and moved along each axis by up to 1 % of the mean edge; then filled by `mls`, but for the two ends of the cylinder. More in [points](points.md).\n\n| model | noise | points | used | triangles | edges with more than two triangles | boundary loops, edges | the model's | seconds to the mesh | holes left |\n| --- | ---: | ---: | ---: | ---: | ---: | --- | --- | ---: | ---: |\n");
+    page.push_str("\n## From points alone\n\nThe vertices of three models, without their triangles. With noise, they are moved along each axis by up to 1 % of the mean edge. Then all holes are filled by `mls`, except the two ends of the cylinder. More in [points](points.md).\n\n| model | noise | points | used | triangles | edges with more than two triangles | boundary loops, edges | the model's | seconds to the mesh | holes left |\n| --- | ---: | ---: | ---: | ---: | ---: | --- | --- | ---: | ---: |\n");
     for (model, open) in [("bunny_natural", 0), ("mls_cap30", 0), ("cylinder_side", 2)] {
         let case = Case::read(models, model)?;
         let original = loop_sizes(&case.mesh);

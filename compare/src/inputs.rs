@@ -9,7 +9,7 @@ use serde_json::json;
 use crate::Result;
 use crate::ply::{self, Mesh};
 
-/// A mesh, the loop of it that stays open, and the holes that it has besides.
+/// A mesh, the loop that stays open, and the other holes.
 pub(crate) struct Input {
     pub(crate) name: &'static str,
     pub(crate) mesh: Mesh,
@@ -57,7 +57,7 @@ fn write(dir: &Path, input: Input) -> Result<()> {
     Ok(())
 }
 
-/// The mesh without the vertices that no triangle uses; the order of the others stays.
+/// The mesh without unused vertices. The others keep their order.
 fn compact(points: Vec<[f64; 3]>, mut triangles: Vec<[u32; 3]>) -> Mesh {
     let mut index = vec![u32::MAX; points.len()];
     for &v in triangles.iter().flatten() {
@@ -100,8 +100,8 @@ fn in_hexagon(corners: &[(usize, usize); 3], centre: (usize, usize), steps: usiz
         .all(|&corner| lattice_distance(corner, centre) <= steps)
 }
 
-/// A closed bumpy sphere of `2 n^2` triangles less `holes` hexagons of 36 edges: a square grid
-/// folded up as an octahedron, opposite halves of each side glued.
+/// A closed bumpy sphere of `2 n^2` triangles without `holes` hexagons of 36 edges. It is a square grid,
+/// folded to an octahedron, with opposite halves of each side joined.
 fn many_holes(name: &'static str, n: usize, holes: usize) -> Input {
     const STEPS: usize = 6;
     let side = (holes as f64).sqrt().ceil() as usize;
@@ -239,8 +239,8 @@ fn rim(name: &'static str, edges: usize) -> Input {
     }
 }
 
-/// A wavy sheet of `2 n^2` triangles with a hole of 60 edges in its middle. Positions are measured
-/// from the hole, so that its neighbourhood has the same bits for every `n`.
+/// A wavy sheet of `2 n^2` triangles with a hole of 60 edges in its middle. Positions are relative to
+/// the hole, so that its neighborhood has the same bits for every `n`.
 fn sheet(name: &'static str, n: usize) -> Input {
     const STEPS: usize = 10;
     let centre = (n / 2, n / 2);
@@ -272,7 +272,7 @@ fn sheet(name: &'static str, n: usize) -> Input {
 mod tests {
     use super::*;
 
-    /// Directed edges without a partner, as loops of vertices; fails on a non-manifold mesh.
+    /// Boundary edges as loops of vertices. Fails on a non-manifold mesh.
     fn boundary_loops(mesh: &Mesh) -> Vec<Vec<u32>> {
         let mut edges: Vec<[u32; 2]> = mesh
             .triangles

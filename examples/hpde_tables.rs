@@ -1,13 +1,13 @@
-//! Runs the experiments of W.-C. Xie, X.-F. Zou, "A triangulation-based hole patching method using differential
-//! evolution", 2013: Tables 1 and 2, the noise of Figure 18 and the sensitivity of Figure 19, and those that show
-//! what differential evolution does and costs. Writes Markdown and plots beside the paper's figures:
+//! Repeats the experiments of W.-C. Xie, X.-F. Zou, "A triangulation-based hole patching method using differential
+//! evolution", 2013: Tables 1 and 2, the noise of Figure 18 and the sensitivity of Figure 19. Also measures the effect
+//! and the cost of differential evolution. Writes Markdown, with the figures of the paper, and plots:
 //!
 //! ```sh
 //! cargo run --release --example hpde_tables -- ../shared/data/cases docs/results
 //! ```
 //!
-//! The first argument is the folder of the models; each has `input.ply`, `meta.json` and, where the removed
-//! triangles are known, `truth.ply`. The second one is where `hpde.md` and `hpde-*.svg` go.
+//! The first argument is the folder of the models. Each has `input.ply`, `meta.json` and, if the removed triangles are
+//! known, `truth.ply`. The second argument is the folder for `hpde.md` and `hpde-*.svg`.
 
 mod shared;
 
@@ -40,7 +40,7 @@ struct Row {
 
 const NO_SMOOTHING: Parameters = &[("hpde.smoothing", "off")];
 
-/// A row of the paper, with each of the models that stand for it.
+/// A row of the paper, with our models for it.
 const fn row(paper: &'static str, model: &'static str) -> Row {
     Row {
         paper,
@@ -187,7 +187,7 @@ impl Cases {
         found.ok_or_else(|| format!("{name} was not read").into())
     }
 
-    /// Those whose removed triangles are known.
+    /// The models whose removed triangles are known.
     fn with_truth(&self) -> impl Iterator<Item = &Case> {
         self.0.iter().filter(|c| c.removed() != "–")
     }
@@ -258,7 +258,7 @@ fn table_1(page: &mut String, cases: &Cases) -> Result<()> {
     Ok(())
 }
 
-/// Table 2: APE and seconds of each method on a model. In the paper's order GREY, NURBS, HPDE.
+/// Table 2: APE and seconds of each method on a model, in the order of the paper: GREY, NURBS, HPDE.
 struct Comparison {
     paper: &'static str,
     holes: &'static str,
@@ -319,7 +319,7 @@ const METHODS: [(Method, &str); 3] = [
     (Method::Hpde, "HPDE"),
 ];
 
-/// The name of the method with the smallest figure.
+/// The method with the smallest figure.
 fn best(figures: [f64; 3]) -> &'static str {
     let least = (0..3).fold(0, |b, i| if figures[i] < figures[b] { i } else { b });
     METHODS[least].1
@@ -409,7 +409,7 @@ struct OverSeeds {
     mean: f64,
     least: f64,
     most: f64,
-    /// How far the others are from that of seed 0, as a share of it.
+    /// Largest difference from seed 0, as a share of its APE.
     from_first: f64,
 }
 
@@ -494,7 +494,7 @@ fn convergence(page: &mut String, cases: &Cases, results: &Path) -> Result<()> {
     page.push_str("## Convergence\n\n");
     let mut lines = Vec::new();
     for variant in VARIANTS {
-        // Its population converges only to what the last generation leaves.
+        // Enough generations for every variant: the search ends when its population agrees.
         let parameters = [("hpde.variant", variant), ("hpde.generations", "200")];
         let hpde = options(Method::Hpde, &parameters)?.methods.hpde;
         let curve = evolve_section(8.0, [1.1, 0.3], 9, &hpde, 0)?;
@@ -560,8 +560,8 @@ fn seeds(page: &mut String, cases: &Cases) -> Result<()> {
     Ok(())
 }
 
-/// Parameters with which the search reaches the optimum of eq. 14: `CR` near 1, as that does not improve height by
-/// height, and generations until the population agrees.
+/// Parameters with which the search reaches the optimum of eq. 14: `CR` near 1, so that trials change many heights, and
+/// enough generations for the population to agree.
 const CONVERGED: Parameters = &[("hpde.cr", "0.9"), ("hpde.generations", "5000")];
 
 fn solvers(page: &mut String, cases: &Cases) -> Result<()> {

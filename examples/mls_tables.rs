@@ -1,13 +1,13 @@
-//! Runs the experiments of J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed
-//! from point clouds", 2006, Tables 1, 3 and 4, on models that are at hand, and those that show what the method costs.
-//! Writes Markdown and a plot beside the paper's figures:
+//! Repeats the experiments of J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed from
+//! point clouds", 2006, Tables 1, 3 and 4, on our models. Also measures the cost of the method. Writes Markdown, with
+//! the figures of the paper, and a plot:
 //!
 //! ```sh
 //! cargo run --release --example mls_tables -- ../shared/data/cases docs/results
 //! ```
 //!
-//! The first argument is the folder of the models; each has `input.ply` and `meta.json` with the loops that stay open.
-//! The second one is where `mls.md` and `mls-cost.svg` go.
+//! The first argument is the folder of the models. Each has `input.ply` and `meta.json` with the loops that stay open.
+//! The second argument is the folder for `mls.md` and `mls-cost.svg`.
 
 mod shared;
 
@@ -23,7 +23,7 @@ use shared::{Case, Filled, RUNS, Result, command, fill, folders, processor_time}
 use std::fmt::Write;
 use std::path::Path;
 
-/// A row of the paper's Table 1 and the model that comes nearest to it.
+/// A row of the paper's Table 1, and our most similar model.
 struct Row {
     paper: &'static str,
     vertices_before: usize,
@@ -161,7 +161,7 @@ fn rows_by_size(page: &mut String) -> Result<()> {
     page.push_str("\n## Table 1 by size\n\nThe cost depends on the points of the vicinity m and the samples k. Each row is one hole in a sphere, with at least the m and the k of the paper:\n\n| paper | m | k | seconds | ours m | k | seconds | paper's over ours |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
     for row in &TABLE_1 {
         let samples = row.vertices_after - row.vertices_before;
-        // So that the vicinity ends well before the equator, where the plane would see it fold.
+        // The vicinity must end well before the equator, where its projection to the plane folds.
         let least = 6 * ((8.0 * row.vicinity as f64).sqrt() / 6.0).ceil() as usize;
         let caps = [10, 15, 20, 30].map(|degrees| (least, degrees));
         let finer = (1..).map(|i| (least + 12 * i, 30));
@@ -240,7 +240,7 @@ impl Cap {
         }
     }
 
-    /// The width of a vicinity of so many parallels, the rim's among them, in sampling steps.
+    /// The width of a vicinity of this many parallels, rim included, in sampling steps.
     fn beta(&self, parallels: usize) -> f64 {
         let p = |v: u32| self.mesh.positions()[v as usize];
         let rim = self.meridians as u32;
@@ -255,7 +255,7 @@ impl Cap {
         (parallels as f64 - 0.5) * apart / step
     }
 
-    /// Fills the hole by the plane with a vicinity of so many parallels.
+    /// Fills the hole over the plane, with a vicinity of this many parallels.
     fn fill(&self, parallels: usize, runs: usize) -> Result<Filled> {
         let beta = self.beta(parallels).to_string();
         let options = options(&[("mls.beta", &beta), ("mls.domain", "plane")])?;
@@ -280,7 +280,7 @@ fn area([a, b, c]: [[f64; 3]; 3]) -> f64 {
     (s * (s - x) * (s - y) * (s - z)).max(0.0).sqrt()
 }
 
-/// The vertices alone, to a mesh, and its holes filled.
+/// Makes a mesh from the vertices alone, and fills its holes.
 fn from_points(page: &mut String, models: &Path) -> Result<()> {
     page.push_str("\n## From points alone\n\nThe vertices of three models, without their triangles. With noise, they are moved along each axis by up to 1 % of the mean edge. Then all holes are filled by `mls`, except the two ends of the cylinder. More in [points](points.md).\n\n| model | noise | points | used | triangles | edges with more than two triangles | boundary loops, edges | the model's | seconds to the mesh | holes left |\n| --- | ---: | ---: | ---: | ---: | ---: | --- | --- | ---: | ---: |\n");
     for (model, open) in [("bunny_natural", 0), ("mls_cap30", 0), ("cylinder_side", 2)] {

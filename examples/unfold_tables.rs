@@ -1,13 +1,13 @@
-//! Runs the experiment of A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular meshes
-//! by curve unfolding", 2009, Table 1, on models that are at hand, and those that show what unfolding costs. Writes
-//! Markdown and a plot beside the paper's figures:
+//! Repeats the experiment of A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular
+//! meshes by curve unfolding", 2009, Table 1, on our models. Also measures the cost of unfolding. Writes Markdown, with
+//! the figures of the paper, and a plot:
 //!
 //! ```sh
 //! cargo run --release --example unfold_tables -- ../shared/data/cases docs/results
 //! ```
 //!
-//! The first argument is the folder of the models, each with `input.ply` and `meta.json`; the second one is where
-//! `unfold.md` and `unfold-growth.svg` go.
+//! The first argument is the folder of the models, each with `input.ply` and `meta.json`. The second argument is the
+//! folder for `unfold.md` and `unfold-growth.svg`.
 
 mod shared;
 
@@ -21,13 +21,13 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::Path;
 
-/// Runs that the paper's figures are means of, here seeds.
+/// Number of seeds over which figures are averaged; the paper averages over as many runs.
 const SEEDS: u64 = 10;
 
-/// Runs of the annealing for each seed: the paper makes up to 100, which take minutes on a rim that it does not unfold.
+/// Runs of the annealing for each seed. The paper makes up to 100, which take minutes on a rim that is not unfolded.
 const ANNEALING_RUNS: usize = 5;
 
-/// The paper's row that comes nearest to each of our models.
+/// The most similar row of the paper for each of our models.
 const MODELS: [(&str, &str); 9] = [
     ("bunny_natural", "Bunny"),
     ("armpit", "Armpit"),
@@ -55,7 +55,7 @@ const PAPER_EDGES: std::ops::RangeInclusive<usize> = 33..=79;
 const MANY_HOLES: usize = 8;
 const MANY_EDGES: usize = 666;
 
-/// A hole's rim, by itself.
+/// The rim of a hole.
 struct Rim<'a> {
     case: &'a Case,
     edge: [u32; 2],
@@ -106,7 +106,7 @@ fn rims_of(case: &Case) -> Result<Vec<Rim<'_>>> {
         .collect())
 }
 
-/// What unfolding a rim with all seeds gave.
+/// Results of unfolding a rim with all seeds.
 #[derive(Default)]
 struct Unfolded {
     /// Sum over the seeds.
@@ -151,7 +151,7 @@ fn unfold(points: &[[f64; 3]], solver: UnfoldSolver) -> Result<Unfolded> {
             }
             Ok(_) => return Err("a polygon is not simple".into()),
             Err(_) => {
-                // The other seeds would take as long for nothing.
+                // The other seeds would fail too, after the same time.
                 all.failures += 1;
                 break;
             }
@@ -160,7 +160,7 @@ fn unfold(points: &[[f64; 3]], solver: UnfoldSolver) -> Result<Unfolded> {
     Ok(all)
 }
 
-/// Whether no two edges of the polygon meet but in the vertex that they share, decided exactly for each pair.
+/// Whether no two edges of the polygon meet, except in a common vertex. Decided exactly for each pair.
 fn is_simple(polygon: &[[f64; 2]]) -> bool {
     let m = polygon.len();
     let at = |i: usize| polygon[i % m];
@@ -306,9 +306,9 @@ fn paper_sizes(page: &mut String, rims: &[Rim<'_>]) -> Result<()> {
     Ok(())
 }
 
-/// Indices of `count` rims that have `edges` edges together, the first such choice.
+/// Indices of `count` rims with `edges` edges in total; the first such choice.
 fn choose(rims: &[Rim<'_>], count: usize, edges: usize) -> Option<Vec<usize>> {
-    // chosen[k][e]: k rims with e edges together.
+    // chosen[k][e]: k rims with e edges in total.
     let mut chosen: Vec<Vec<Option<Vec<usize>>>> = vec![vec![None; edges + 1]; count + 1];
     chosen[0][0] = Some(Vec::new());
     for (i, rim) in rims.iter().enumerate() {
@@ -359,7 +359,7 @@ fn many_holes(page: &mut String, rims: &[Rim<'_>]) -> Result<()> {
     Ok(())
 }
 
-/// The rim of a strip that winds 1.4 times round a cylinder: no knot, but every projection crosses itself.
+/// The rim of a strip that winds 1.4 times round a cylinder. It is not knotted, but every projection crosses itself.
 fn winding_strip(m: usize) -> Vec<[f64; 3]> {
     const TURNS: f64 = 1.4;
     const WIDTH: f64 = 0.5;

@@ -180,8 +180,8 @@ fn is_simple(polygon: &[[f64; 2]]) -> bool {
                 (side(c, d, a), c, d, a),
                 (side(c, d, b), c, d, b),
             ];
-            let is_neighbour = k == i + 1 || (i == 0 && k == m - 1);
-            if is_neighbour {
+            let is_neighbor = k == i + 1 || (i == 0 && k == m - 1);
+            if is_neighbor {
                 // The far ends must not lie on the other edge.
                 return !sides
                     .iter()

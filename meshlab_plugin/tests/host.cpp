@@ -149,7 +149,7 @@ void test_progress(const Host& host) {
     check(model.cm.fn == static_cast<int>(model.cm.face.size()), "the host's count of faces is right");
 }
 
-void test_cancelling(const Host& host) {
+void test_cancellation(const Host& host) {
     for (const std::size_t at : {std::size_t(1), std::size_t(3)}) {
         MeshDocument document;
         MeshModel& model = sheet(document, 160);
@@ -326,7 +326,7 @@ int main(int count, char** arguments) {
         Host::number_of_flat = method.enumvalues.indexOf("flat");
         check(parameters.getEnum("Method") == Host::number_of_auto, "auto is the default");
         test_progress(host);
-        test_cancelling(host);
+        test_cancellation(host);
         test_exceptions(host);
         test_deleted_elements(host);
         test_flags_and_enabled_data(host);

@@ -230,7 +230,7 @@ class Values(unittest.TestCase):
         np.testing.assert_allclose(wedges[:, 0], places[:, 0] / 10 + 0.5, atol=1e-4)
         np.testing.assert_allclose(wedges[:, 1], places[:, 2] / 4 + 0.5, atol=1e-4)
 
-    def test_normals_point_outwards(self):
+    def test_normals_point_outward(self):
         ms = mesh_set(*torus())
         vertices, faces = ms.current_mesh().vertex_number(), ms.current_mesh().face_number()
         ms.apply_filter(FILL)
@@ -238,13 +238,13 @@ class Values(unittest.TestCase):
         p = mesh.vertex_matrix()
         ring = p * [1, 1, 0]
         ring *= 3 / np.linalg.norm(ring, axis=1)[:, None]
-        outwards = p - ring
-        outwards /= np.linalg.norm(outwards, axis=1)[:, None]
+        outward = p - ring
+        outward /= np.linalg.norm(outward, axis=1)[:, None]
         normals = mesh.vertex_normal_matrix()
         normals = normals / np.linalg.norm(normals, axis=1)[:, None]
-        self.assertGreater((normals * outwards).sum(axis=1).min(), 0.9)
+        self.assertGreater((normals * outward).sum(axis=1).min(), 0.9)
         corner = mesh.face_matrix()[faces:, 0]
-        self.assertGreater((mesh.face_normal_matrix()[faces:] * outwards[corner]).sum(axis=1).min(), 0.8)
+        self.assertGreater((mesh.face_normal_matrix()[faces:] * outward[corner]).sum(axis=1).min(), 0.8)
         np.testing.assert_allclose(np.linalg.norm(mesh.face_normal_matrix(), axis=1), 1, atol=1e-9)
         self.assertEqual(len(normals), len(p))
         self.assertGreater(len(p), vertices)

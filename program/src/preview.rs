@@ -66,7 +66,7 @@ pub(crate) fn draw(scene: &Scene<'_>) -> Picture {
         first_new,
         ..
     } = *scene;
-    let points = centred(scene.positions, triangles);
+    let points = centered(scene.positions, triangles);
     let view = view::choose(&points, triangles, first_new, scene.patches);
     let places = view.project(&points, triangles, SIZE);
     let mut before = Canvas::new(SIZE);
@@ -107,7 +107,7 @@ pub(crate) fn write_png(picture: &Picture, out: impl io::Write) -> io::Result<()
 }
 
 /// The points, moved to the origin and scaled to an extent of about one.
-fn centred(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<Vec3> {
+fn centered(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     let (mut low, mut high) = ([f64::MAX; 3], [f64::MIN; 3]);
     for &v in triangles.iter().flatten() {
         for k in 0..3 {

@@ -32,15 +32,15 @@ pub(crate) struct View {
 impl View {
     /// Looks at the origin from the direction `from`, y up.
     pub(crate) fn new(from: Vec3) -> Self {
-        let towards = from.try_normalize(0.0).unwrap_or_else(Vec3::z);
-        let up = if towards.y.abs() < 0.99 {
+        let toward = from.try_normalize(0.0).unwrap_or_else(Vec3::z);
+        let up = if toward.y.abs() < 0.99 {
             Vec3::y()
         } else {
             Vec3::z()
         };
-        let right = up.cross(&towards).normalize();
+        let right = up.cross(&toward).normalize();
         Self {
-            axes: [right, towards.cross(&right), towards],
+            axes: [right, toward.cross(&right), toward],
         }
     }
 

@@ -4,7 +4,7 @@
 //! by which the pipeline knows colors and normals.
 
 use super::failure::{Failure, invalid, nth};
-use super::guard::{guard, guard_mesh};
+use super::guard::{guard, guard_with};
 use super::input::Columns;
 use super::objects::{MeshObject, NamedColumns, with_mesh_mut};
 use super::output::{Sink, Wanted, write};
@@ -84,57 +84,40 @@ scalar_types! {
     HOLEFILL_TYPE_F64 F64
 }
 
-/// An attribute that was copied from the caller.
-pub(super) struct CopiedAttribute {
-    named: NamedColumns,
-    /// The values of its columns.
-    values: Vec<ScalarValues>,
-}
+/// An attribute that was copied from the caller, and its columns by name.
+pub(super) type Copied = (NamedColumns, Vec<(String, AttributeValues)>);
 
-impl CopiedAttribute {
-    /// Copies the rows of `values`, of which there must be `count`.
-    ///
-    /// # Safety
-    /// `values` is null or describes memory of the caller.
-    pub(super) unsafe fn read(
-        name: &str,
-        components: u32,
-        values: *const HolefillInput,
-        count: usize,
-        what: &str,
-    ) -> Result<Self, Failure> {
-        // SAFETY: the caller's promise.
-        let columns = unsafe { Columns::check(values, components as usize, what)? };
-        let rows = columns.rows.count;
-        if rows != count {
-            return Err(invalid(format!(
-                "attribute {name} has {rows} rows for {count} elements"
-            )));
-        }
-        let values: Result<Vec<ScalarValues>, Failure> = (0..components as usize)
-            .map(|k| column(&columns, k, what))
-            .collect();
-        Ok(Self {
-            values: values?,
-            named: NamedColumns {
-                name: name.to_owned(),
-                scalar_type: columns.rows.scalar_type,
-                columns: column_names(name, components),
-            },
-        })
+/// Copies the rows of `values`, of which there must be `count`.
+///
+/// # Safety
+/// `values` is null or describes memory of the caller.
+pub(super) unsafe fn copy_attribute(
+    name: &str,
+    components: u32,
+    values: *const HolefillInput,
+    count: usize,
+    what: &str,
+) -> Result<Copied, Failure> {
+    // SAFETY: the caller's promise.
+    let given = unsafe { Columns::check(values, components as usize, what)? };
+    let rows = given.rows.count;
+    if rows != count {
+        return Err(invalid(format!(
+            "attribute {name} has {rows} rows for {count} elements"
+        )));
     }
-
-    /// The attribute, and its columns by name.
-    pub(super) fn into_columns(
-        self,
-    ) -> (
-        NamedColumns,
-        impl Iterator<Item = (String, AttributeValues)>,
-    ) {
-        let names = self.named.columns.clone();
-        let values = self.values.into_iter().map(AttributeValues::Scalars);
-        (self.named, names.into_iter().zip(values))
+    let names = column_names(name, components);
+    let mut columns = Vec::new();
+    for (k, name) in names.iter().enumerate() {
+        let values = AttributeValues::Scalars(column(&given, k, what)?);
+        columns.push((name.clone(), values));
     }
+    let named = NamedColumns {
+        name: name.to_owned(),
+        scalar_type: given.rows.scalar_type,
+        columns: names,
+    };
+    Ok((named, columns))
 }
 
 /// Adds an attribute to the vertices or the triangles of a mesh, and copies its values.
@@ -167,7 +150,7 @@ pub unsafe extern "C" fn holefill_mesh_add_attribute(
                 "an attribute needs a name and 1 to {MOST_COMPONENTS} components"
             )));
         }
-        with_mesh_mut(mesh.id, |object| {
+        with_mesh_mut(mesh, |object| {
             let mesh = object.session.mesh();
             let known = [mesh.vertex_attributes(), mesh.face_attributes()][place];
             let names = column_names(name, components);
@@ -177,8 +160,8 @@ pub unsafe extern "C" fn holefill_mesh_add_attribute(
             // All is copied before anything is added: then nothing can fail.
             // SAFETY: the caller's promise.
             let copied =
-                unsafe { CopiedAttribute::read(name, components, values, known.len(), "values")? };
-            let (named, columns) = copied.into_columns();
+                unsafe { copy_attribute(name, components, values, known.len(), "values")? };
+            let (named, columns) = copied;
             for (name, values) in columns {
                 match place {
                     0 => object.session.add_vertex_attribute(&name, values)?,
@@ -201,7 +184,7 @@ pub unsafe extern "C" fn holefill_mesh_attribute_count(
     count: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         let found = object.attributes[place(element)?].len();
         // SAFETY: the caller's promise.
         unsafe { write(count, found as u64, "count") }
@@ -219,7 +202,7 @@ pub unsafe extern "C" fn holefill_mesh_attribute_info(
     info: *mut HolefillAttributeInfo,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         let (named, attributes) = find(object, element, index)?;
         let value = HolefillAttributeInfo {
             scalar_type: named.scalar_type,
@@ -245,7 +228,7 @@ pub unsafe extern "C" fn holefill_mesh_attribute_name(
     length: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         let (named, _) = find(object, element, index)?;
         // SAFETY: the caller's promise.
         unsafe { write_text(&named.name, buffer, capacity, length) }
@@ -265,7 +248,7 @@ pub unsafe extern "C" fn holefill_mesh_read_attribute(
     output: *const HolefillOutput,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         let (named, attributes) = find(object, element, index)?;
         let wanted = Wanted {
             first,

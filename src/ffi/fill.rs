@@ -1,7 +1,7 @@
 //! Filling holes.
 
 use super::failure::{Failure, invalid, invalid_struct, nth};
-use super::guard::{guard, guard_mesh_mut};
+use super::guard::guard;
 use super::input::read_indices;
 use super::loops::{loop_of_edge, loops_of_vertices, read_selection};
 use super::objects::{MeshObject, Object, with_mesh_mut};
@@ -134,7 +134,7 @@ pub unsafe extern "C" fn holefill_mesh_fill(
                 .with_progress(|progress| session.fill(wish.target(), &options, progress))?)
         };
         // SAFETY: the caller's promise.
-        let filled = with_mesh_mut(mesh.id, |object| unsafe { change(object, report, fill) })?;
+        let filled = with_mesh_mut(mesh, |object| unsafe { change(object, report, fill) })?;
         callbacks.log(&filled);
         Ok(status_of(&filled))
     })
@@ -161,8 +161,10 @@ pub unsafe extern "C" fn holefill_mesh_undo(
     mesh: HolefillMesh,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh_mut(mesh, error, |object| match object.session.undo() {
-        true => Ok(()),
-        false => Err(Failure::of(HOLEFILL_STATUS_NOTHING_TO_UNDO)),
+    guard(error, || {
+        with_mesh_mut(mesh, |object| match object.session.undo() {
+            true => Ok(()),
+            false => Err(Failure::of(HOLEFILL_STATUS_NOTHING_TO_UNDO)),
+        })
     })
 }

@@ -37,40 +37,25 @@ fn room<T>(count: usize, what: &str) -> Result<Vec<T>, Failure> {
 /// Rows that one task copies: some hundred kilobytes, so that starting it costs nothing.
 const COPIED_ROWS: usize = 1 << 14;
 
-/// The address of the caller's memory, for several threads to read.
-#[derive(Clone, Copy)]
-struct Source(*const u8);
-
-// SAFETY: the memory is only read, and the caller promises that it stays as it is during the call.
-unsafe impl Sync for Source {}
-
-impl Source {
-    /// # Safety
-    /// As `pointer::add`.
-    unsafe fn add(&self, bytes: usize) -> *const u8 {
-        // SAFETY: the caller's promise.
-        unsafe { self.0.add(bytes) }
-    }
-}
-
 /// Fills an empty vector, which has room for them, with copies of rows without gaps. Several threads share the work:
 /// most of it is that memory is used for the first time.
 ///
 /// # Safety
 /// Rows are as long as a `T`, and any bits are a `T`.
 unsafe fn copy_rows<T: Copy + Send>(rows: &Rows, values: &mut Vec<T>) {
-    let source = Source(rows.data.cast_const());
-    let room = &mut values.spare_capacity_mut()[..rows.count];
-    room.par_chunks_mut(COPIED_ROWS)
-        .enumerate()
-        .for_each(|(k, room)| {
-            // SAFETY: the chunk lies within the rows, which were checked; bytes need no alignment.
-            unsafe {
-                let from = source.add(k * COPIED_ROWS * size_of::<T>());
-                let to: *mut u8 = room.as_mut_ptr().cast();
-                std::ptr::copy_nonoverlapping(from, to, size_of_val(room));
-            }
-        });
+    if rows.count == 0 {
+        return;
+    }
+    let chunk = COPIED_ROWS * size_of::<T>();
+    // SAFETY: the rows were checked and have no gaps; bytes need no alignment, and nobody writes to them during the call.
+    let bytes = unsafe { std::slice::from_raw_parts(rows.data, rows.count * rows.stride) };
+    let room = values.spare_capacity_mut()[..rows.count].par_chunks_mut(COPIED_ROWS);
+    room.zip(bytes.par_chunks(chunk)).for_each(|(room, bytes)| {
+        // SAFETY: both are of the same rows.
+        unsafe {
+            std::ptr::copy_nonoverlapping(bytes.as_ptr(), room.as_mut_ptr().cast(), bytes.len())
+        };
+    });
     // SAFETY: all of them were written just now.
     unsafe { values.set_len(rows.count) };
 }

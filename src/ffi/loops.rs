@@ -1,12 +1,12 @@
 //! Boundary loops: counted, described, found and chosen.
 
 use super::failure::{Failure, not_found, nth};
-use super::guard::{guard_mesh, guard_silent};
+use super::guard::guard_with;
 use super::input::{read_indices, read_optional_indices};
 use super::objects::MeshObject;
 use super::output::{write, write_indices, write_list};
 use super::status::{HOLEFILL_STATUS_INDEX_OUT_OF_RANGE, HolefillStatus};
-use super::structs::{blank, init_struct, read_struct, write_struct};
+use super::structs::{blank, read_struct, write_struct};
 use super::types::*;
 use crate::boundary::classify::LoopClass;
 use crate::boundary::loops::BoundaryLoop;
@@ -53,7 +53,7 @@ pub unsafe extern "C" fn holefill_mesh_loop_count(
     count: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         let loops = object.session.boundary().loops.len();
         // SAFETY: the caller's promise.
         unsafe { write(count, loops as u64, "count") }
@@ -70,7 +70,7 @@ pub unsafe extern "C" fn holefill_mesh_loop_info(
     info: *mut HolefillLoopInfo,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         let l = find_loop(object, loop_id)?;
         let value = HolefillLoopInfo {
             loop_id,
@@ -103,7 +103,7 @@ pub unsafe extern "C" fn holefill_mesh_read_loop(
     output: *const HolefillOutput,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         let (vertices, _) = find_loop(object, loop_id)?.vertices.as_chunks::<1>();
         // SAFETY: the caller's promise.
         unsafe { write_indices(output, first, vertices) }
@@ -121,7 +121,7 @@ pub unsafe extern "C" fn holefill_mesh_find_edge(
     loop_id: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         let id = loop_of_edge(&object.session, [from, to])?;
         // SAFETY: the caller's promise.
         unsafe { write(loop_id, id as u64, "loop_id") }
@@ -156,7 +156,7 @@ pub unsafe extern "C" fn holefill_mesh_find_vertices(
     count: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         // SAFETY: the caller's promise.
         unsafe {
             let found = loops_of_vertices(&object.session, vertices)?;
@@ -192,7 +192,7 @@ pub unsafe extern "C" fn holefill_mesh_select(
     count: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         // SAFETY: the caller's promise.
         let rules = unsafe { read_selection(selection)? };
         let session = &object.session;
@@ -224,14 +224,4 @@ pub(super) unsafe fn read_selection(
         max_perimeter: (rules.max_perimeter != 0.0).then_some(rules.max_perimeter),
         keep_largest: usize::try_from(rules.keep_largest).unwrap_or(usize::MAX),
     })
-}
-
-/// Makes `selection` one that chooses every open loop. `struct_size` is `sizeof(HolefillSelection)` of the caller.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn holefill_selection_init(
-    selection: *mut HolefillSelection,
-    struct_size: u32,
-) -> HolefillStatus {
-    // SAFETY: the caller's promise.
-    guard_silent(|| unsafe { init_struct(selection, struct_size, "selection") })
 }

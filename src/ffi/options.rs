@@ -2,11 +2,11 @@
 
 use super::callbacks::Callbacks;
 use super::failure::{Failure, invalid, not_found};
-use super::guard::{guard, guard_silent, guard_value};
-use super::objects::{Object, PARAMETERS, free, with_parameters};
+use super::guard::{guard, guard_free, guard_value, guard_with};
+use super::objects::{Handle as _, Object, lock};
 use super::output::hand_out;
 use super::status::{HOLEFILL_STATUS_LIMIT, HolefillStatus};
-use super::structs::{init_struct, read_struct};
+use super::structs::read_struct;
 use super::text::{owned, read_optional_text, read_text, write_text};
 use super::types::{HolefillError, HolefillFillOptions, HolefillParameters};
 use crate::methods::method::Method;
@@ -31,7 +31,7 @@ pub(super) unsafe fn read_options(
     };
     let mut read = match given.parameters.id {
         0 => FillOptions::default(),
-        id => with_parameters(id, |parameters| Ok(parameters.clone()))?,
+        _ => given.parameters.with(|options| Ok(lock(options).clone()))?,
     };
     // SAFETY: the caller's promise.
     if let Some(method) = unsafe { read_optional_text(given.method, "method")? } {
@@ -65,16 +65,6 @@ pub(super) fn check_threads(threads: u32) -> Result<usize, Failure> {
     Ok(threads as usize)
 }
 
-/// Makes `options` the defaults. `struct_size` is `sizeof(HolefillFillOptions)` of the caller.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn holefill_fill_options_init(
-    options: *mut HolefillFillOptions,
-    struct_size: u32,
-) -> HolefillStatus {
-    // SAFETY: the caller's promise.
-    guard_silent(|| unsafe { init_struct(options, struct_size, "options") })
-}
-
 /// Makes a set of parameters with their defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn holefill_parameters_new(
@@ -91,7 +81,7 @@ pub unsafe extern "C" fn holefill_parameters_new(
 /// Frees a set of parameters. The handle 0 is allowed. Calls that were given it have read it already.
 #[unsafe(no_mangle)]
 pub extern "C" fn holefill_parameters_free(parameters: HolefillParameters) -> HolefillStatus {
-    guard_silent(|| free(PARAMETERS, parameters.id))
+    guard_free(parameters)
 }
 
 /// Sets a parameter by its name to a value in text, as `holefill_parameter_allowed` describes it.
@@ -108,11 +98,13 @@ pub unsafe extern "C" fn holefill_parameters_set(
     guard(error, || {
         // SAFETY: the caller's promise.
         let (name, value) = unsafe { (read_text(name, "name")?, read_text(value, "value")?) };
-        with_parameters(parameters.id, |options| {
-            options.set(name, value).map_err(|e| match find(name) {
-                Some(_) => invalid(e.to_string()),
-                None => not_found(e.to_string()),
-            })
+        parameters.with(|options| {
+            lock(options)
+                .set(name, value)
+                .map_err(|e| match find(name) {
+                    Some(_) => invalid(e.to_string()),
+                    None => not_found(e.to_string()),
+                })
         })
     })
 }
@@ -129,15 +121,13 @@ pub unsafe extern "C" fn holefill_parameters_get(
     length: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard(error, || {
+    guard_with(parameters, error, |options| {
         // SAFETY: the caller's promise.
         let name = unsafe { read_text(name, "name")? };
-        with_parameters(parameters.id, |options| {
-            let unknown = || not_found(format!("there is no parameter '{name}'"));
-            let value = find(name).ok_or_else(unknown)?.value(options);
-            // SAFETY: the caller's promise.
-            unsafe { write_text(&value, buffer, capacity, length) }
-        })
+        let unknown = || not_found(format!("there is no parameter '{name}'"));
+        let value = find(name).ok_or_else(unknown)?.value(&lock(options));
+        // SAFETY: the caller's promise.
+        unsafe { write_text(&value, buffer, capacity, length) }
     })
 }
 

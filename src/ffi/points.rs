@@ -1,6 +1,6 @@
 //! Meshes made from points.
 
-use super::attributes::CopiedAttribute;
+use super::attributes::copy_attribute;
 use super::callbacks::Callbacks;
 use super::failure::{Failure, not_null};
 use super::guard::guard;
@@ -115,8 +115,7 @@ pub unsafe extern "C" fn holefill_mesh_from_points(
         if !colors.is_null() {
             let count = cloud.positions.len();
             // SAFETY: as above.
-            let copied = unsafe { CopiedAttribute::read("color", 3, colors, count, "colors")? };
-            let (named, columns) = copied.into_columns();
+            let (named, columns) = unsafe { copy_attribute("color", 3, colors, count, "colors")? };
             for (name, values) in columns {
                 cloud.attributes.push(name, values)?;
             }

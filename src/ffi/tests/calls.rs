@@ -65,7 +65,10 @@ fn arrays_of_every_type_and_stride_make_the_same_mesh() {
         view(&wide, count, 31, HOLEFILL_TYPE_I64),
         view(&narrow, count, 19, HOLEFILL_TYPE_U32),
         view(&narrow, count, 19, HOLEFILL_TYPE_I32),
-        rows(&arrays.triangles, HOLEFILL_TYPE_I32),
+        HolefillInput {
+            scalar_type: HOLEFILL_TYPE_I32,
+            ..rows(&arrays.triangles)
+        },
     ] {
         let mut mesh = HolefillMesh::default();
         ok!(holefill_mesh_from_arrays: &points, &faces, &mut mesh);
@@ -81,8 +84,8 @@ fn arrays_of_every_type_and_stride_make_the_same_mesh() {
     let mut mesh = HolefillMesh::default();
     // SAFETY: the views describe living memory.
     let status = unsafe {
-        let points = rows(&singles, HOLEFILL_TYPE_F32);
-        let faces = rows(&arrays.triangles, HOLEFILL_TYPE_U32);
+        let points = rows(&singles);
+        let faces = rows(&arrays.triangles);
         holefill_mesh_from_arrays(&points, &faces, &mut mesh, nothing())
     };
     assert_eq!(status, HOLEFILL_STATUS_OK);
@@ -114,14 +117,8 @@ fn outputs_go_where_they_should_and_nowhere_else() {
     let mut wide = [[0_u64; 3]; 2];
     let mut single = [[0_f32; 3]; 2];
     let (mut signed, mut wide_signed) = ([[0_i32; 3]; 2], [[0_i64; 3]; 2]);
-    let (to_wide, to_single) = (
-        place(&mut wide, HOLEFILL_TYPE_U64),
-        place(&mut single, HOLEFILL_TYPE_F32),
-    );
-    let to_signed = [
-        place(&mut signed, HOLEFILL_TYPE_I32),
-        place(&mut wide_signed, HOLEFILL_TYPE_I64),
-    ];
+    let (to_wide, to_single) = (place(&mut wide), place(&mut single));
+    let to_signed = [place(&mut signed), place(&mut wide_signed)];
     for output in &to_signed {
         call!(holefill_mesh_read_triangles: mesh.0, 1, output);
     }
@@ -144,11 +141,11 @@ fn a_loop_is_the_same_by_id_by_edge_and_by_vertices() {
         if way == 3 {
             chain.reverse();
         }
-        let view = rows(&chain, HOLEFILL_TYPE_U64);
+        let view = rows(&chain);
         let mut id = u64::MAX;
         let status = call!(holefill_mesh_find_edge: mesh.0, from, to, &mut id);
         assert_eq!((status, id), (HOLEFILL_STATUS_OK, 1));
-        let ids = rows(&[1_i64], HOLEFILL_TYPE_I64);
+        let ids = rows(&[1_i64]);
         let target = match way {
             0 => at_loop(1),
             1 => at_edge([from, to]),
@@ -179,7 +176,7 @@ fn a_chain_through_two_loops_that_touch_finds_both() {
     let place_in_second = second.iter().position(|v| *v == first[0]).unwrap();
     second.rotate_left(place_in_second);
     let eight: Vec<u64> = [first, second].concat();
-    let view = rows(&eight, HOLEFILL_TYPE_U64);
+    let view = rows(&eight);
     let mut ids = [u64::MAX; 2];
     let mut count = 0;
     let status = call!(holefill_mesh_find_vertices: mesh.0, &view, ids.as_mut_ptr(), 1, &mut count);
@@ -188,7 +185,7 @@ fn a_chain_through_two_loops_that_touch_finds_both() {
     ok!(holefill_mesh_find_vertices: mesh.0, &view, ids.as_mut_ptr(), 2, &mut count);
     assert_eq!(ids, [a, b]);
     // Not all of it is not a loop.
-    let view = rows(&eight[..eight.len() - 1], HOLEFILL_TYPE_U64);
+    let view = rows(&eight[..eight.len() - 1]);
     let mut error = HolefillError::default();
     // SAFETY: all pointers are null or to living values.
     let status = unsafe {
@@ -291,8 +288,7 @@ fn a_report_says_what_happened_to_each_hole() {
         filled.first_triangle + filled.triangle_count,
         size.triangle_count
     );
-    let mut summary = structs::blank::<HolefillSummary>();
-    call!(holefill_report_summary: report, &mut summary);
+    let summary: HolefillSummary = got!(holefill_report_summary: report);
     assert_eq!(
         (summary.hole_count, summary.filled, summary.kept),
         (2, 1, 1)
@@ -414,17 +410,12 @@ fn attributes_go_in_come_out_and_are_continued() {
     let colors: Vec<[u8; 3]> = (0..vertices).map(|i| [(i % 256) as u8, 10, 200]).collect();
     let labels: Vec<i16> = vec![-7; faces];
     let (vertex, triangle) = (HOLEFILL_ELEMENT_VERTEX, HOLEFILL_ELEMENT_TRIANGLE);
-    let colors = rows(&colors, HOLEFILL_TYPE_U8);
+    let colors = rows(&colors);
     for (element, name, components, values) in [
-        (vertex, c"height", 1, rows(&heights, HOLEFILL_TYPE_F32)),
+        (vertex, c"height", 1, rows(&heights)),
         (vertex, c"color", 3, colors),
-        (
-            vertex,
-            c"place",
-            3,
-            rows(&arrays.positions, HOLEFILL_TYPE_F64),
-        ),
-        (triangle, c"label", 1, rows(&labels, HOLEFILL_TYPE_I16)),
+        (vertex, c"place", 3, rows(&arrays.positions)),
+        (triangle, c"label", 1, rows(&labels)),
     ] {
         let name = name.as_ptr();
         let add = || call!(holefill_mesh_add_attribute: mesh.0, element, name, components, &values);
@@ -440,11 +431,11 @@ fn attributes_go_in_come_out_and_are_continued() {
     let mut places = vec![[0_f64; 3]; size.vertex_count as usize];
     let [ok, refused] = [HOLEFILL_STATUS_OK, HOLEFILL_STATUS_INVALID_ARGUMENT];
     for (element, index, output, expected) in [
-        (triangle, 0, place(&mut new_labels, HOLEFILL_TYPE_I16), ok),
-        (vertex, 1, place(&mut new_colors, HOLEFILL_TYPE_U8), ok),
-        (vertex, 1, place(&mut as_numbers, HOLEFILL_TYPE_F64), ok),
-        (vertex, 2, place(&mut places, HOLEFILL_TYPE_F64), ok),
-        (vertex, 1, place(&mut new_colors, HOLEFILL_TYPE_I8), refused),
+        (triangle, 0, place(&mut new_labels), ok),
+        (vertex, 1, place(&mut new_colors), ok),
+        (vertex, 1, place(&mut as_numbers), ok),
+        (vertex, 2, place(&mut places), ok),
+        (vertex, 1, place(&mut new_colors), refused),
     ] {
         let status = call!(holefill_mesh_read_attribute: mesh.0, element, index, 0, &output);
         assert_eq!(status, expected);

@@ -1,10 +1,8 @@
 //! What is answered to callers who do what they must not: a documented status, and nothing is changed. Wrong pointers,
 //! handles and rows of numbers are in `refusals`.
 
+use super::objects::Handle as _;
 use super::*;
-
-/// Room for a struct of any size, aligned.
-type Room = [u64; 64];
 
 /// What calls with a struct of the caller need.
 struct World {
@@ -18,7 +16,7 @@ impl World {
     fn new() -> Self {
         let mesh = holed_mesh();
         let labels = vec![7_u8; info(mesh.0).vertex_count as usize];
-        let values = rows(&labels, HOLEFILL_TYPE_U8);
+        let values = rows(&labels);
         call!(holefill_mesh_add_attribute: mesh.0, 1, c"label".as_ptr(), 1, &values);
         Self {
             report: report_of(mesh.0, &at_loop(0), &with_method(c"auto")).1,
@@ -34,7 +32,7 @@ impl World {
         options: *const HolefillPointOptions,
         summary: *mut HolefillPointSummary,
     ) -> HolefillStatus {
-        let points = rows(&self.points, HOLEFILL_TYPE_F64);
+        let points = rows(&self.points);
         let (none, mut mesh) = (ptr::null(), HolefillMesh::default());
         // SAFETY: all pointers are null, to living values or the caller's.
         unsafe {
@@ -99,101 +97,47 @@ structs! {
 
 #[test]
 fn structs_of_older_and_newer_headers_are_read_and_written_as_far_as_they_go() {
+    use HOLEFILL_STATUS_INVALID_STRUCT as INVALID;
+    use HOLEFILL_STATUS_OK as OK;
     const MARK: u64 = 0x5555_5555_5555_5555;
     let world = World::new();
-    for (name, size, is_written, call) in STRUCTS.iter().copied() {
-        // The two numbers are the first word: the size and the version.
-        let head = |size: u32, version: u64| u64::from(size) | version << 32;
+    for &(name, size, is_written, call) in STRUCTS {
         let rest = if is_written { MARK } else { 0 };
-        let mut full = [rest; 64];
-        full[0] = head(size, 1);
-        assert_eq!(
-            call(&world, full.as_mut_ptr()),
-            HOLEFILL_STATUS_OK,
-            "{name}"
-        );
-        for size in [0, 1, 4, 7, size - 4, size - 1, 4097, u32::MAX] {
+        // The two numbers are the first word: the size and the version. `beyond` is what follows the size.
+        let check = |size: u32, version: u32, beyond: u64, expected| {
+            let known = (size as usize / 8).clamp(1, 64);
             let mut room = [rest; 64];
-            room[0] = head(size, 1);
+            room[known..].fill(beyond);
+            room[0] = u64::from(size) | u64::from(version) << 32;
             let before = room;
-            assert_eq!(
-                call(&world, room.as_mut_ptr()),
-                HOLEFILL_STATUS_INVALID_STRUCT,
-                "{name} {size}"
-            );
-            assert_eq!(room, before, "{name} {size}");
+            let what = format!("{name} of {size} bytes and version {version}");
+            assert_eq!(call(&world, room.as_mut_ptr()), expected, "{what}");
+            assert!(expected == OK || room == before, "{what}");
+            // What lies behind the struct is neither read nor written.
+            assert_eq!(room[known..], before[known..], "{what}");
+            room
+        };
+        let full = check(size, 1, rest, OK);
+        for wrong in [0, 1, 4, 7, size - 4, size - 1, 4097, u32::MAX] {
+            check(wrong, 1, rest, INVALID);
         }
-        for version in [0, 2, u64::from(u32::MAX)] {
-            let mut room = [rest; 64];
-            room[0] = head(size, version);
-            assert_eq!(
-                call(&world, room.as_mut_ptr()),
-                HOLEFILL_STATUS_INVALID_STRUCT,
-                "{name} {version}"
-            );
+        for version in [0, 2, u32::MAX] {
+            check(size, version, rest, INVALID);
         }
-        for words in 1..=size as usize / 8 + 8 {
-            // Where the library reads, what lies behind the struct must not be read.
-            let mut room = [MARK; 64];
-            room[0] = head(8 * words as u32, 1);
-            if !is_written {
-                room[1..words].fill(0);
-            }
-            assert_eq!(
-                call(&world, room.as_mut_ptr()),
-                HOLEFILL_STATUS_OK,
-                "{name} of {words} words"
-            );
-            assert!(
-                room[words..].iter().all(|&w| w == MARK),
-                "{name} of {words} words"
-            );
+        let words = size as usize / 8;
+        for given in 1..=words + 8 {
+            let room = check(8 * given as u32, 1, MARK, OK);
             if is_written {
-                let known = words.min(size as usize / 8);
-                assert!(
-                    room[known..words].iter().all(|&w| w == 0),
-                    "{name} of {words} words"
-                );
-                assert_eq!(room[1..known], full[1..known], "{name} of {words} words");
-            } else if words > size as usize / 8 {
-                room[words - 1] = 1;
-                assert_eq!(
-                    call(&world, room.as_mut_ptr()),
-                    HOLEFILL_STATUS_INVALID_STRUCT,
-                    "{name}"
-                );
+                let known = given.min(words);
+                assert_eq!(room[1..known], full[1..known], "{name} of {given} words");
+                assert!(room[known..given].iter().all(|&w| w == 0), "{name}");
+            } else if given > words {
+                let mut room = room;
+                room[given - 1] = 1;
+                assert_eq!(call(&world, room.as_mut_ptr()), INVALID, "{name}");
             }
         }
     }
-}
-
-#[test]
-fn structs_are_made_blank_as_far_as_they_go() {
-    let mut room: Room = [9; 64];
-    // SAFETY: the room is as large as is said.
-    unsafe {
-        let place = room.as_mut_ptr();
-        assert_eq!(
-            holefill_fill_options_init(place.cast(), 128),
-            HOLEFILL_STATUS_OK
-        );
-        assert_eq!(
-            (room[0], &room[1..16], room[16]),
-            (128 | 1 << 32, &[0; 15][..], 9)
-        );
-        let place = room.as_mut_ptr();
-        assert_eq!(
-            holefill_selection_init(place.cast(), 24),
-            HOLEFILL_STATUS_OK
-        );
-        assert_eq!(room[0], 24 | 1 << 32);
-        let place = room.as_mut_ptr();
-        for size in [0, 7, 95, 4097] {
-            let status = holefill_selection_init(place.cast(), size);
-            assert_eq!(status, HOLEFILL_STATUS_INVALID_STRUCT, "{size}");
-        }
-    }
-    assert_eq!(room[0], 24 | 1 << 32);
 }
 
 #[test]
@@ -228,12 +172,12 @@ fn what_is_not_there_is_not_found() {
     let before = digest(mesh.0);
     let count = info(mesh.0).vertex_count;
     let [from, to] = loop_info(mesh.0, 0).edge;
-    let chain = rows(&[0_u32, 1, 2], HOLEFILL_TYPE_U32);
-    let far = rows(&[0_u64, u64::MAX - 9], HOLEFILL_TYPE_U64);
-    let none = rows(&[0_u32, 2], HOLEFILL_TYPE_U32);
-    let negative = rows(&[-1_i32], HOLEFILL_TYPE_I32);
+    let chain = rows(&[0_u32, 1, 2]);
+    let far = rows(&[0_u64, u64::MAX - 9]);
+    let none = rows(&[0_u32, 2]);
+    let negative = rows(&[-1_i32]);
     let mut bad_edge = structs::blank::<HolefillSelection>();
-    bad_edge.only = rows(&[[0_u32, 1]], HOLEFILL_TYPE_U32);
+    bad_edge.only = rows(&[[0_u32, 1]]);
     let reserved = HolefillTarget {
         reserved: 1,
         ..every_loop()
@@ -273,7 +217,7 @@ fn what_is_not_there_is_not_found() {
         assert_eq!((status, plan.id), (expected, 0), "{target:?}");
     }
     let mut numbers = [[0.0_f64; 3]; 2];
-    let output = place(&mut numbers, HOLEFILL_TYPE_F64);
+    let output = place(&mut numbers);
     let mut id = 0;
     // SAFETY: all pointers are null or to living values.
     unsafe {
@@ -332,7 +276,7 @@ fn plans_that_no_longer_fit_are_refused() {
     assert_eq!(apply(plan, mesh.0), HOLEFILL_STATUS_OK);
     undo(mesh.0);
     let labels = vec![0_u8; info(mesh.0).vertex_count as usize];
-    let values = rows(&labels, HOLEFILL_TYPE_U8);
+    let values = rows(&labels);
     call!(holefill_mesh_add_attribute: mesh.0, 1, c"label".as_ptr(), 1, &values);
     assert_eq!(apply(plan, mesh.0), HOLEFILL_STATUS_STALE_PLAN);
     holefill_plan_free(plan);
@@ -364,7 +308,7 @@ fn a_panic_becomes_a_status_and_poisons_the_mesh_that_was_in_use() {
     let mesh = holed_mesh();
     let mut error = HolefillError::default();
     let panicking = guard::guard(&mut error, || {
-        objects::with_mesh::<()>(mesh.0.id, |_| panic!("on purpose"))
+        mesh.0.with(|_| -> Result<(), _> { panic!("on purpose") })
     });
     assert_eq!(panicking, HOLEFILL_STATUS_PANIC);
     assert!(message(error).contains("on purpose"));
@@ -375,7 +319,7 @@ fn a_panic_becomes_a_status_and_poisons_the_mesh_that_was_in_use() {
     assert_eq!(status, HOLEFILL_STATUS_POISONED);
     let other = holed_mesh();
     let panicking = guard::guard(nothing(), || {
-        objects::with_mesh_mut::<()>(other.0.id, |_| panic!("on purpose"))
+        objects::with_mesh_mut::<()>(other.0, |_| panic!("on purpose"))
     });
     assert_eq!(panicking, HOLEFILL_STATUS_PANIC);
     assert_eq!(undo(other.0), HOLEFILL_STATUS_POISONED);

@@ -15,6 +15,15 @@ macro_rules! ok {
     };
 }
 
+/// The struct that a call writes, which must succeed.
+macro_rules! got {
+    ($function:ident: $($argument:expr),*) => {{
+        let mut value = structs::blank();
+        ok!($function: $($argument,)* &mut value);
+        value
+    }};
+}
+
 /// The text that a function writes to a buffer of the caller.
 macro_rules! told {
     ($function:ident: $($argument:expr),*) => {
@@ -48,24 +57,57 @@ impl Drop for Owned {
     }
 }
 
-fn rows<T>(rows: &[T], scalar_type: HolefillType) -> HolefillInput {
+/// Numbers, and rows of them, that C has a type for.
+trait Numbers {
+    const TYPE: HolefillType;
+}
+
+macro_rules! numbers {
+    ($($number:ident $scalar_type:ident)*) => {
+        $(impl Numbers for $number {
+            const TYPE: HolefillType = $scalar_type;
+        })*
+    };
+}
+numbers! {
+    i8 HOLEFILL_TYPE_I8 u8 HOLEFILL_TYPE_U8 i16 HOLEFILL_TYPE_I16
+    i32 HOLEFILL_TYPE_I32 u32 HOLEFILL_TYPE_U32 i64 HOLEFILL_TYPE_I64 u64 HOLEFILL_TYPE_U64
+    f32 HOLEFILL_TYPE_F32 f64 HOLEFILL_TYPE_F64
+}
+
+impl<T: Numbers, const N: usize> Numbers for [T; N] {
+    const TYPE: HolefillType = T::TYPE;
+}
+
+fn rows<T: Numbers>(rows: &[T]) -> HolefillInput {
     HolefillInput {
         data: rows.as_ptr().cast(),
         count: rows.len() as u64,
         stride: 0,
-        scalar_type,
+        scalar_type: T::TYPE,
         reserved: 0,
     }
 }
 
-fn place<T>(rows: &mut [T], scalar_type: HolefillType) -> HolefillOutput {
+fn place<T: Numbers>(rows: &mut [T]) -> HolefillOutput {
     HolefillOutput {
         data: rows.as_mut_ptr().cast(),
         count: rows.len() as u64,
         stride: 0,
-        scalar_type,
+        scalar_type: T::TYPE,
         reserved: 0,
     }
+}
+
+/// So many rows, read by a call that must succeed.
+fn read<T: Numbers + Clone>(
+    count: u64,
+    zero: T,
+    call: impl FnOnce(&HolefillOutput) -> HolefillStatus,
+) -> Vec<T> {
+    let mut values = vec![zero; count as usize];
+    assert_eq!(call(&place(&mut values)), HOLEFILL_STATUS_OK);
+    values
 }
 
 /// A change of options, and how a call with them ends.
@@ -77,8 +119,8 @@ fn nothing() -> *mut HolefillError {
 
 fn mesh_of(arrays: &Arrays) -> Owned {
     let mut mesh = HolefillMesh::default();
-    let positions = rows(&arrays.positions, HOLEFILL_TYPE_F64);
-    let triangles = rows(&arrays.triangles, HOLEFILL_TYPE_U32);
+    let positions = rows(&arrays.positions);
+    let triangles = rows(&arrays.triangles);
     ok!(holefill_mesh_from_arrays: &positions, &triangles, &mut mesh);
     Owned(mesh)
 }
@@ -93,23 +135,25 @@ fn holed_mesh() -> Owned {
 }
 
 fn info(mesh: HolefillMesh) -> HolefillMeshInfo {
-    let mut info = structs::blank::<HolefillMeshInfo>();
-    ok!(holefill_mesh_info: mesh, &mut info);
-    info
+    got!(holefill_mesh_info: mesh)
 }
 
 fn positions(mesh: HolefillMesh) -> Vec<[f64; 3]> {
-    let mut values = vec![[0.0; 3]; info(mesh).vertex_count as usize];
-    let output = place(&mut values, HOLEFILL_TYPE_F64);
-    ok!(holefill_mesh_read_positions: mesh, 0, &output);
-    values
+    let count = info(mesh).vertex_count;
+    read(
+        count,
+        [0.0; 3],
+        |to| call!(holefill_mesh_read_positions: mesh, 0, to),
+    )
 }
 
 fn triangles(mesh: HolefillMesh) -> Vec<[u32; 3]> {
-    let mut values = vec![[0; 3]; info(mesh).triangle_count as usize];
-    let output = place(&mut values, HOLEFILL_TYPE_U32);
-    ok!(holefill_mesh_read_triangles: mesh, 0, &output);
-    values
+    let count = info(mesh).triangle_count;
+    read(
+        count,
+        [0; 3],
+        |to| call!(holefill_mesh_read_triangles: mesh, 0, to),
+    )
 }
 
 fn loop_count(mesh: HolefillMesh) -> u64 {
@@ -119,16 +163,16 @@ fn loop_count(mesh: HolefillMesh) -> u64 {
 }
 
 fn loop_info(mesh: HolefillMesh, id: u64) -> HolefillLoopInfo {
-    let mut info = structs::blank::<HolefillLoopInfo>();
-    ok!(holefill_mesh_loop_info: mesh, id, &mut info);
-    info
+    got!(holefill_mesh_loop_info: mesh, id)
 }
 
 fn loop_vertices(mesh: HolefillMesh, id: u64) -> Vec<u64> {
-    let mut values = vec![0_u64; loop_info(mesh, id).vertex_count as usize];
-    let output = place(&mut values, HOLEFILL_TYPE_U64);
-    ok!(holefill_mesh_read_loop: mesh, id, 0, &output);
-    values
+    let count = loop_info(mesh, id).vertex_count;
+    read(
+        count,
+        0,
+        |to| call!(holefill_mesh_read_loop: mesh, id, 0, to),
+    )
 }
 
 /// A number for everything that a mesh holds: FNV-1a over what can be read.
@@ -149,10 +193,10 @@ fn digest(mesh: HolefillMesh) -> u64 {
         let mut count = 0;
         call!(holefill_mesh_attribute_count: mesh, element, &mut count);
         for index in 0..count {
-            let mut info = structs::blank::<HolefillAttributeInfo>();
-            call!(holefill_mesh_attribute_info: mesh, element, index, &mut info);
+            let info: HolefillAttributeInfo =
+                got!(holefill_mesh_attribute_info: mesh, element, index);
             let mut values = vec![0.0_f64; (info.count * u64::from(info.components)) as usize];
-            let mut output = place(&mut values, HOLEFILL_TYPE_F64);
+            let mut output = place(&mut values);
             output.count = info.count;
             ok!(holefill_mesh_read_attribute: mesh, element, index, 0, &output);
             add(bytemuck::cast_slice(&values));
@@ -281,8 +325,7 @@ fn report_of(
 }
 
 fn hole(report: HolefillReport, index: u64) -> HolefillHole {
-    let mut hole = structs::blank::<HolefillHole>();
-    ok!(holefill_report_hole: report, index, &mut hole);
+    let hole: HolefillHole = got!(holefill_report_hole: report, index);
     hole
 }
 
@@ -314,17 +357,20 @@ fn apply(plan: HolefillPlan, mesh: HolefillMesh) -> HolefillStatus {
 
 /// New vertices and triangles of the patch for a loop.
 fn patch(plan: HolefillPlan, id: u64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
-    let mut info = structs::blank::<HolefillPatchInfo>();
-    ok!(holefill_plan_patch: plan, id, &mut info);
-    let mut points = vec![[0.0; 3]; info.vertex_count as usize];
-    let mut faces = vec![[0; 3]; info.triangle_count as usize];
-    let (to_points, to_faces) = (
-        place(&mut points, HOLEFILL_TYPE_F64),
-        place(&mut faces, HOLEFILL_TYPE_U32),
-    );
-    ok!(holefill_plan_read_positions: plan, id, 0, &to_points);
-    ok!(holefill_plan_read_triangles: plan, id, 0, &to_faces);
-    (points, faces)
+    let info: HolefillPatchInfo = got!(holefill_plan_patch: plan, id);
+    let (vertices, triangles) = (info.vertex_count, info.triangle_count);
+    (
+        read(
+            vertices,
+            [0.0; 3],
+            |to| call!(holefill_plan_read_positions: plan, id, 0, to),
+        ),
+        read(
+            triangles,
+            [0; 3],
+            |to| call!(holefill_plan_read_triangles: plan, id, 0, to),
+        ),
+    )
 }
 
 /// A callback that stops at its `n`-th call; `user_data` is the number of calls that are left.

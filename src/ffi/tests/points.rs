@@ -81,7 +81,7 @@ fn a_mesh_from_points_is_that_of_the_rust_call() {
         None,
     )
     .unwrap();
-    let view = rows(&points, HOLEFILL_TYPE_F64);
+    let view = rows(&points);
     for threads in [0, 1, 2] {
         let options = HolefillPointOptions {
             threads,
@@ -160,7 +160,7 @@ fn points_may_stand_anywhere_and_duplicates_stay_as_vertices() {
         );
     }
     let mut colors = vec![[0_u8; 3]; samples.len()];
-    let output = place(&mut colors, HOLEFILL_TYPE_U8);
+    let output = place(&mut colors);
     ok!(holefill_mesh_read_attribute: mesh.0, 1, 0, 0, &output);
     let kept = colors.iter().zip(&samples);
     assert!(kept.into_iter().all(|(c, s)| c[..] == { s.color }[..3]));
@@ -172,17 +172,17 @@ fn points_that_make_no_mesh_are_refused() {
     let line: Vec<[f64; 3]> = (0..30).map(|i| [f64::from(i), 0.0, 0.0]).collect();
     let same = vec![[1.0, 2.0, 3.0]; 30];
     for few in [&[][..], &good[..1], &good[..3], &line, &same] {
-        let (status, .., text) = make(&rows(few, HOLEFILL_TYPE_F64), &Given::default());
+        let (status, .., text) = make(&rows(few), &Given::default());
         assert_eq!(status, HOLEFILL_STATUS_INVALID_ARGUMENT, "{text}");
     }
     // Colors are data that is carried on, whatever it is.
     let mut points = good.clone();
     points[5][1] = f64::NAN;
     let given = Given {
-        colors: Some(rows(&points, HOLEFILL_TYPE_F64)),
+        colors: Some(rows(&points)),
         ..Given::default()
     };
-    let status = refused(&rows(&good, HOLEFILL_TYPE_F64), &given);
+    let status = refused(&rows(&good), &given);
     assert_eq!(status, HOLEFILL_STATUS_OK);
 }
 
@@ -190,7 +190,7 @@ fn points_that_make_no_mesh_are_refused() {
 fn options_for_points_are_checked() {
     use HOLEFILL_STATUS_INVALID_ARGUMENT as INVALID;
     let points = cloud();
-    let view = rows(&points, HOLEFILL_TYPE_F64);
+    let view = rows(&points);
     let changes: [Change<HolefillPointOptions>; 15] = [
         (|_| {}, HOLEFILL_STATUS_OK),
         (|o| o.time_budget = 1e6, HOLEFILL_STATUS_OK),
@@ -224,7 +224,7 @@ fn options_for_points_are_checked() {
 fn making_a_mesh_from_points_can_be_stopped_at_every_call() {
     // Some tens of milliseconds.
     let points: Vec<[f64; 3]> = fixtures::sphere(60).positions;
-    let view = rows(&points, HOLEFILL_TYPE_F64);
+    let view = rows(&points);
     let mut n = 0_i64;
     loop {
         let mut left = n;

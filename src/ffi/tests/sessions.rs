@@ -25,8 +25,8 @@ fn circle() -> Vec<[f64; 3]> {
 
 fn polyline(normals: Option<&[[f64; 3]]>) -> Owned {
     let points = circle();
-    let points = rows(&points, HOLEFILL_TYPE_F64);
-    let normals = normals.map(|n| rows(n, HOLEFILL_TYPE_F64));
+    let points = rows(&points);
+    let normals = normals.map(|n| rows(n));
     let mut mesh = HolefillMesh::default();
     // SAFETY: all pointers are null or to living values.
     let status = unsafe {
@@ -94,8 +94,8 @@ fn a_polyline_is_used_as_a_mesh_is() {
     );
     let labels = vec![3_u8; EDGES];
     let mut id = 9;
-    let values = rows(&labels, HOLEFILL_TYPE_U8);
-    let empty = rows(&labels[..0], HOLEFILL_TYPE_U8);
+    let values = rows(&labels);
+    let empty = rows(&labels[..0]);
     let name = c"label".as_ptr();
     ok!(holefill_mesh_add_attribute: mesh.0, 1, name, 1, &values);
     ok!(holefill_mesh_add_attribute: mesh.0, 2, name, 1, &empty);

@@ -43,7 +43,7 @@ fn random_call(
     let options = with_method([c"flat", c"membrane", c"fair-c1"][noise.below(3) as usize]);
     let mut number = 0;
     let mut point = [[0.0_f64; 3]; 3];
-    let output = place(&mut point, HOLEFILL_TYPE_F64);
+    let output = place(&mut point);
     // SAFETY: all pointers are null or to living values.
     unsafe {
         match noise.below(12) {

@@ -10,7 +10,7 @@ use super::objects::{MeshObject, NamedColumns, with_mesh_mut};
 use super::output::{Sink, Wanted, write};
 use super::rows::ATTRIBUTE_TYPES;
 use super::status::HolefillStatus;
-use super::structs::{blank, write_struct};
+use super::structs::write_struct;
 use super::text::{read_text, write_text};
 use super::types::*;
 use crate::mesh::attributes::{
@@ -208,7 +208,7 @@ pub unsafe extern "C" fn holefill_mesh_attribute_info(
             scalar_type: named.scalar_type,
             components: named.columns.len() as u32,
             count: attributes.len() as u64,
-            ..blank()
+            ..Default::default()
         };
         // SAFETY: the caller's promise.
         unsafe { write_struct(info, &value, "info") }

@@ -6,7 +6,7 @@ use super::input::{read_indices, read_optional_indices};
 use super::objects::MeshObject;
 use super::output::{write, write_indices, write_list};
 use super::status::{HOLEFILL_STATUS_INDEX_OUT_OF_RANGE, HolefillStatus};
-use super::structs::{blank, read_struct, write_struct};
+use super::structs::{read_struct, write_struct};
 use super::types::*;
 use crate::boundary::classify::LoopClass;
 use crate::boundary::loops::BoundaryLoop;
@@ -83,7 +83,7 @@ pub unsafe extern "C" fn holefill_mesh_loop_info(
             planarity: l.planarity,
             loop_class: class_number(l.class),
             is_open: object.session.is_open(l.id).into(),
-            ..blank()
+            ..Default::default()
         };
         // SAFETY: the caller's promise.
         unsafe { write_struct(info, &value, "info") }

@@ -6,7 +6,7 @@ use super::input::{check_finite, read_finite, read_indices, read_optional, read_
 use super::objects::Object;
 use super::output::{hand_out, write_indices, write_points};
 use super::status::{HOLEFILL_STATUS_INDEX_OUT_OF_RANGE, HolefillStatus};
-use super::structs::{blank, write_struct};
+use super::structs::write_struct;
 use super::types::{
     HolefillDefects, HolefillError, HolefillInput, HolefillMesh, HolefillMeshInfo, HolefillOutput,
 };
@@ -121,7 +121,7 @@ pub unsafe extern "C" fn holefill_mesh_info(
             input_triangle_count: object.input[1] as u64,
             undo_count: object.session.undo_count() as u64,
             is_polyline: object.session.is_polyline().into(),
-            ..blank()
+            ..Default::default()
         };
         // SAFETY: the caller's promise.
         unsafe { write_struct(info, &value, "info") }
@@ -143,7 +143,7 @@ pub unsafe extern "C" fn holefill_mesh_defects(
             degenerate_triangles: found.degenerate_faces.count as u64,
             duplicate_triangles: found.duplicate_faces.count as u64,
             isolated_vertices: found.isolated_vertices.count as u64,
-            ..blank()
+            ..Default::default()
         };
         // SAFETY: the caller's promise.
         unsafe { write_struct(defects, &value, "defects") }

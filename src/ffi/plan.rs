@@ -7,7 +7,7 @@ use super::objects::{Handle as _, Object, PlanObject, with_mesh_mut};
 use super::options::read_options;
 use super::output::{hand_out, write_indices, write_points};
 use super::status::{HOLEFILL_STATUS_STALE_PLAN, HolefillStatus};
-use super::structs::{blank, write_struct};
+use super::structs::write_struct;
 use super::types::{
     HolefillError, HolefillFillOptions, HolefillMesh, HolefillOutput, HolefillPatchInfo,
     HolefillPlan, HolefillReport, HolefillTarget,
@@ -122,7 +122,7 @@ pub unsafe extern "C" fn holefill_plan_patch(
             first_vertex: patch.first_vertex as u64,
             vertex_count: patch.vertices.len() as u64,
             triangle_count: patch.triangles.len() as u64,
-            ..blank()
+            ..Default::default()
         };
         // SAFETY: the caller's promise.
         unsafe { write_struct(info, &value, "info") }

@@ -9,7 +9,7 @@ use super::objects::MeshObject;
 use super::options::check_threads;
 use super::output::hand_out;
 use super::status::HolefillStatus;
-use super::structs::{blank, check_struct, read_struct, write_struct};
+use super::structs::{check_struct, read_struct, write_struct};
 use super::types::{
     HolefillError, HolefillInput, HolefillMesh, HolefillPointOptions, HolefillPointSummary,
 };
@@ -135,7 +135,7 @@ pub unsafe extern "C" fn holefill_mesh_from_points(
                 piece_count: report.pieces as u64,
                 estimated_normals: report.estimated_normals as u64,
                 radius: report.radius,
-                ..blank()
+                ..Default::default()
             };
             // SAFETY: not null, and checked before.
             unsafe { write_struct(summary, &value, "summary")? };

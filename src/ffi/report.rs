@@ -6,7 +6,7 @@ use super::loops::class_number;
 use super::options::method_text;
 use super::output::write;
 use super::status::HolefillStatus;
-use super::structs::{blank, write_struct};
+use super::structs::write_struct;
 use super::text::{owned, write_text};
 use super::types::*;
 use crate::error::ErrorKind;
@@ -93,7 +93,7 @@ pub unsafe extern "C" fn holefill_report_summary(
             new_triangles: sum(|h| h.new_triangles.len()) as u64,
             index_seconds: report.index_seconds,
             fill_seconds: report.fill_seconds,
-            ..blank()
+            ..Default::default()
         };
         // SAFETY: the caller's promise.
         unsafe { write_struct(summary, &value, "summary") }
@@ -129,7 +129,7 @@ pub unsafe extern "C" fn holefill_report_hole(
             self_intersections: found.self_intersections as u64,
             min_angle: found.min_angle.unwrap_or(0.0),
             seconds: found.seconds,
-            ..blank()
+            ..Default::default()
         };
         // SAFETY: the caller's promise.
         unsafe { write_struct(hole, &value, "hole") }
@@ -203,7 +203,7 @@ pub unsafe extern "C" fn holefill_report_prediction(
             crease_surface_count: found.crease_surfaces.len() as u64,
             is_tip: found.is_tip.into(),
             is_flat: found.is_flat.into(),
-            ..blank()
+            ..Default::default()
         };
         // SAFETY: the caller's promise.
         unsafe { write_struct(prediction, &value, "prediction") }

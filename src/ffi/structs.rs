@@ -11,7 +11,7 @@ use std::mem::{MaybeUninit, align_of};
 ///
 /// # Safety
 /// The type is `repr(C)`, begins with `struct_size: u32` and `version: u32`, and all zero bytes are a value of it.
-pub(super) unsafe trait CStruct: Copy {
+pub(super) unsafe trait CStruct: Copy + Default {
     const VERSION: u32;
 }
 
@@ -22,6 +22,13 @@ macro_rules! versioned {
             // functions that may be null.
             unsafe impl CStruct for $name {
                 const VERSION: u32 = $version;
+            }
+
+            /// Nothing but its size and version.
+            impl Default for $name {
+                fn default() -> Self {
+                    blank()
+                }
             }
         )*
     };
@@ -129,7 +136,7 @@ pub(super) unsafe fn write_struct<T: CStruct>(
 }
 
 /// A struct with nothing but its size and version.
-pub(super) fn blank<T: CStruct>() -> T {
+fn blank<T: CStruct>() -> T {
     let mut value = MaybeUninit::<T>::zeroed();
     let fields: *mut u32 = value.as_mut_ptr().cast();
     // SAFETY: `CStruct` says that zeros are a value and that it begins with two `u32`.

@@ -11,7 +11,7 @@ fn a_fill_through_c_gives_the_bits_of_a_fill_through_rust() {
     let arrays = holed();
     for (method, name) in [(c"flat", "flat"), (c"fair-c2", "fair-c2")] {
         let mesh = mesh_of(&arrays);
-        assert_eq!(fill_all(mesh.0, &with_method(method)), HOLEFILL_STATUS_OK);
+        assert_eq!(fill_all(mesh.0, &with_method(method)), OK);
         let rust = TriMesh::new(arrays.positions.clone(), arrays.triangles.clone()).unwrap();
         let mut session = FillSession::new(rust);
         let options = FillOptions {
@@ -88,7 +88,7 @@ fn arrays_of_every_type_and_stride_make_the_same_mesh() {
         let faces = rows(&arrays.triangles);
         holefill_mesh_from_arrays(&points, &faces, &mut mesh, nothing())
     };
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    assert_eq!(status, OK);
     let mesh = Owned(mesh);
     let widened: Vec<[f64; 3]> = singles.iter().map(|p| p.map(f64::from)).collect();
     assert_eq!(positions(mesh.0), widened);
@@ -144,7 +144,7 @@ fn a_loop_is_the_same_by_id_by_edge_and_by_vertices() {
         let view = rows(&chain);
         let mut id = u64::MAX;
         let status = call!(holefill_mesh_find_edge: mesh.0, from, to, &mut id);
-        assert_eq!((status, id), (HOLEFILL_STATUS_OK, 1));
+        assert_eq!((status, id), (OK, 1));
         let ids = rows(&[1_i64]);
         let target = match way {
             0 => at_loop(1),
@@ -153,7 +153,7 @@ fn a_loop_is_the_same_by_id_by_edge_and_by_vertices() {
             _ => at_ids(HOLEFILL_TARGET_LOOPS, &ids),
         };
         let status = fill(mesh.0, &target, &options());
-        assert_eq!(status, HOLEFILL_STATUS_OK);
+        assert_eq!(status, OK);
         assert_eq!(loop_info(mesh.0, 1).is_open, 0);
         assert_eq!(loop_info(mesh.0, 0).is_open, 1);
         digests.push(digest(mesh.0));
@@ -180,7 +180,7 @@ fn a_chain_through_two_loops_that_touch_finds_both() {
     let mut ids = [u64::MAX; 2];
     let mut count = 0;
     let status = call!(holefill_mesh_find_vertices: mesh.0, &view, ids.as_mut_ptr(), 1, &mut count);
-    assert_eq!((status, count), (HOLEFILL_STATUS_BUFFER_TOO_SMALL, 2));
+    assert_eq!((status, count), (TOO_SMALL, 2));
     assert_eq!(ids[0], u64::MAX);
     ok!(holefill_mesh_find_vertices: mesh.0, &view, ids.as_mut_ptr(), 2, &mut count);
     assert_eq!(ids, [a, b]);
@@ -191,7 +191,7 @@ fn a_chain_through_two_loops_that_touch_finds_both() {
     let status = unsafe {
         holefill_mesh_find_vertices(mesh.0, &view, ptr::null_mut(), 0, &mut count, &mut error)
     };
-    assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
+    assert_eq!(status, NOT_FOUND);
     assert!(!message(error).is_empty());
     holefill_error_free(error);
 }
@@ -208,10 +208,10 @@ fn a_plan_is_what_a_fill_would_do_and_changes_nothing() {
     let count = info(planned.0);
     assert_eq!(positions(filled.0)[count.vertex_count as usize..], points);
     assert_eq!(triangles(filled.0)[count.triangle_count as usize..], faces);
-    assert_eq!(apply(plan, planned.0), HOLEFILL_STATUS_OK);
+    assert_eq!(apply(plan, planned.0), OK);
     assert_eq!(digest(planned.0), digest(filled.0));
     // A second time the rim is closed.
-    assert_eq!(apply(plan, planned.0), HOLEFILL_STATUS_INCOMPLETE);
+    assert_eq!(apply(plan, planned.0), INCOMPLETE);
     assert_eq!(digest(planned.0), digest(filled.0));
     holefill_plan_free(plan);
 }
@@ -221,7 +221,7 @@ fn plans_of_several_loops_number_their_patches_one_after_the_other() {
     let mesh = holed_mesh();
     let mut plan = HolefillPlan::default();
     let mut report = HolefillReport::default();
-    let mut infos = [structs::blank::<HolefillPatchInfo>(); 2];
+    let mut infos = [HolefillPatchInfo::default(); 2];
     ok!(holefill_mesh_plan: mesh.0, ptr::null(), &options(), &mut plan);
     for id in 0..2 {
         call!(holefill_plan_patch: plan, id, &mut infos[id as usize]);
@@ -238,7 +238,7 @@ fn plans_of_several_loops_number_their_patches_one_after_the_other() {
         (HOLEFILL_HOLE_FILLED, infos[1].first_vertex)
     );
     holefill_report_free(report);
-    assert_eq!(apply(plan, mesh.0), HOLEFILL_STATUS_OK);
+    assert_eq!(apply(plan, mesh.0), OK);
     holefill_plan_free(plan);
     let filled = holed_mesh();
     fill_all(filled.0, &options());
@@ -250,17 +250,17 @@ fn undo_brings_back_every_state_in_turn() {
     let mesh = holed_mesh();
     let mut states = vec![digest(mesh.0)];
     for id in [1, 0] {
-        assert_eq!(fill_loop(mesh.0, id, &options()), HOLEFILL_STATUS_OK);
+        assert_eq!(fill_loop(mesh.0, id, &options()), OK);
         states.push(digest(mesh.0));
     }
     let filled = states.pop().unwrap();
     for state in states.iter().rev() {
-        assert_eq!(undo(mesh.0), HOLEFILL_STATUS_OK);
+        assert_eq!(undo(mesh.0), OK);
         assert_eq!(digest(mesh.0), *state);
     }
-    assert_eq!(undo(mesh.0), HOLEFILL_STATUS_NOTHING_TO_UNDO);
+    assert_eq!(undo(mesh.0), NOTHING_TO_UNDO);
     for id in [1, 0] {
-        assert_eq!(fill_loop(mesh.0, id, &options()), HOLEFILL_STATUS_OK);
+        assert_eq!(fill_loop(mesh.0, id, &options()), OK);
     }
     assert_eq!(digest(mesh.0), filled);
 }
@@ -268,10 +268,10 @@ fn undo_brings_back_every_state_in_turn() {
 #[test]
 fn a_report_says_what_happened_to_each_hole() {
     let mesh = holed_mesh();
-    let mut rules = structs::blank::<HolefillSelection>();
+    let mut rules = HolefillSelection::default();
     rules.keep_largest = 1;
     let (status, report) = report_of(mesh.0, &selected(&rules), &with_method(c"fair-c1"));
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    assert_eq!(status, OK);
     let holes = [hole(report, 0), hole(report, 1)];
     let (kept, filled) = match holes[0].status {
         HOLEFILL_HOLE_KEPT => (holes[0], holes[1]),
@@ -308,7 +308,7 @@ fn methods_that_were_tried_are_listed_with_reasons() {
         ..with_method(c"fair-c1")
     };
     let (status, report) = report_of(mesh.0, &at_loop(0), &options);
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    assert_eq!(status, OK);
     let hole = hole(report, 0);
     assert_eq!(static_text(hole.method), Some("flat"));
     assert!(hole.tried_count >= 1);
@@ -329,7 +329,7 @@ fn a_report_is_also_one_text_with_what_was_predicted() {
     for (arrays, method) in [(holed(), c"auto"), (cube, c"auto"), (holed(), c"fair-c1")] {
         let mesh = mesh_of(&arrays);
         let (status, report) = report_of(mesh.0, &every_loop(), &with_method(method));
-        assert_eq!(status, HOLEFILL_STATUS_OK);
+        assert_eq!(status, OK);
         let json = told!(holefill_report_json: report);
         let json: serde_json::Value = serde_json::from_str(&json).unwrap();
         let holes = json["holes"].as_array().unwrap();
@@ -339,14 +339,14 @@ fn a_report_is_also_one_text_with_what_was_predicted() {
             assert_eq!(told["id"], hole.loop_id);
             assert_eq!(told["method"].as_str(), static_text(hole.method));
             assert_eq!(told["new_triangles"], hole.triangle_count);
-            let mut found = structs::blank::<HolefillPrediction>();
+            let mut found = HolefillPrediction::default();
             let status = call!(holefill_report_prediction: report, i, &mut found);
             let told = &told["prediction"];
             if told.is_null() {
-                assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
+                assert_eq!(status, NOT_FOUND);
                 continue;
             }
-            assert_eq!(status, HOLEFILL_STATUS_OK);
+            assert_eq!(status, OK);
             assert_eq!(told["chosen"].as_str(), static_text(found.chosen));
             assert_eq!(told["noise"], found.noise);
             assert_eq!(told["is_tip"], found.is_tip == 1);
@@ -374,7 +374,7 @@ fn every_open_loop_is_the_default_target() {
             holefill_mesh_fill(null.0, ptr::null(), none, no, nothing()),
         ]
     };
-    assert_eq!((a, b), (HOLEFILL_STATUS_OK, HOLEFILL_STATUS_OK));
+    assert_eq!((a, b), (OK, OK));
     assert_eq!(digest(all.0), digest(null.0));
     assert!((0..loop_count(all.0)).all(|id| loop_info(all.0, id).is_open == 0));
 }
@@ -419,23 +419,27 @@ fn attributes_go_in_come_out_and_are_continued() {
     ] {
         let name = name.as_ptr();
         let add = || call!(holefill_mesh_add_attribute: mesh.0, element, name, components, &values);
-        assert_eq!(add(), HOLEFILL_STATUS_OK);
-        assert_eq!(add(), HOLEFILL_STATUS_INVALID_ARGUMENT);
+        assert_eq!(add(), OK);
+        assert_eq!(add(), INVALID);
     }
     let before = digest(mesh.0);
-    assert_eq!(fill_loop(mesh.0, 0, &options()), HOLEFILL_STATUS_OK);
+    assert_eq!(fill_loop(mesh.0, 0, &options()), OK);
     let size = info(mesh.0);
     let mut new_labels = vec![0_i16; size.triangle_count as usize];
     let mut new_colors = vec![[0_u8; 3]; size.vertex_count as usize];
     let mut as_numbers = vec![[0_f64; 3]; size.vertex_count as usize];
     let mut places = vec![[0_f64; 3]; size.vertex_count as usize];
-    let [ok, refused] = [HOLEFILL_STATUS_OK, HOLEFILL_STATUS_INVALID_ARGUMENT];
+    let as_signed = HolefillOutput {
+        scalar_type: HOLEFILL_TYPE_I8,
+        ..place(&mut new_colors)
+    };
+    let [ok, refused] = [OK, INVALID];
     for (element, index, output, expected) in [
         (triangle, 0, place(&mut new_labels), ok),
         (vertex, 1, place(&mut new_colors), ok),
         (vertex, 1, place(&mut as_numbers), ok),
         (vertex, 2, place(&mut places), ok),
-        (vertex, 1, place(&mut new_colors), refused),
+        (vertex, 1, as_signed, refused),
     ] {
         let status = call!(holefill_mesh_read_attribute: mesh.0, element, index, 0, &output);
         assert_eq!(status, expected);
@@ -456,7 +460,7 @@ fn attributes_go_in_come_out_and_are_continued() {
     );
     let name = told!(holefill_mesh_attribute_name: mesh.0, HOLEFILL_ELEMENT_VERTEX, 1);
     assert_eq!(name, "color");
-    assert_eq!(undo(mesh.0), HOLEFILL_STATUS_OK);
+    assert_eq!(undo(mesh.0), OK);
     assert_eq!(digest(mesh.0), before);
 }
 
@@ -487,9 +491,9 @@ fn the_log_speaks_only_when_it_is_asked_and_only_as_loud() {
 #[test]
 fn irregularities_are_counted() {
     let mesh = mesh_of(&fixtures::sheet_with_hole().with_vertex([9.0, 9.0, 9.0]));
-    let mut defects = structs::blank::<HolefillDefects>();
+    let mut defects = HolefillDefects::default();
     let status = call!(holefill_mesh_defects: mesh.0, &mut defects);
-    assert_eq!((status, defects.isolated_vertices), (HOLEFILL_STATUS_OK, 1));
+    assert_eq!((status, defects.isolated_vertices), (OK, 1));
 }
 
 #[test]

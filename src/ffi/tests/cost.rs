@@ -89,7 +89,7 @@ fn the_way_through_c_costs_little() {
     let (mut in_c, mut in_rust, mut patch_only) = (Vec::new(), Vec::new(), Vec::new());
     for turn in 0..TURNS {
         let status = timed(&mut in_c, || fill_loop(mesh.0, hole, &c_options));
-        assert_eq!(status, HOLEFILL_STATUS_OK);
+        assert_eq!(status, OK);
         let ids = [hole as usize];
         let report = timed(&mut in_rust, || {
             session.fill(Target::Loops(&ids), &rust_options, None)

@@ -39,7 +39,7 @@ impl World {
             let mesh = &mut mesh;
             holefill_mesh_from_points(&points, none, none, options, mesh, summary, nothing())
         };
-        let status = i32::from(mesh.id == 0) * HOLEFILL_STATUS_INVALID_STRUCT;
+        let status = i32::from(mesh.id == 0) * INVALID_STRUCT;
         holefill_mesh_free(mesh);
         status
     }
@@ -97,8 +97,6 @@ structs! {
 
 #[test]
 fn structs_of_older_and_newer_headers_are_read_and_written_as_far_as_they_go() {
-    use HOLEFILL_STATUS_INVALID_STRUCT as INVALID;
-    use HOLEFILL_STATUS_OK as OK;
     const MARK: u64 = 0x5555_5555_5555_5555;
     let world = World::new();
     for &(name, size, is_written, call) in STRUCTS {
@@ -119,10 +117,10 @@ fn structs_of_older_and_newer_headers_are_read_and_written_as_far_as_they_go() {
         };
         let full = check(size, 1, rest, OK);
         for wrong in [0, 1, 4, 7, size - 4, size - 1, 4097, u32::MAX] {
-            check(wrong, 1, rest, INVALID);
+            check(wrong, 1, rest, INVALID_STRUCT);
         }
         for version in [0, 2, u32::MAX] {
-            check(size, version, rest, INVALID);
+            check(size, version, rest, INVALID_STRUCT);
         }
         let words = size as usize / 8;
         for given in 1..=words + 8 {
@@ -134,7 +132,7 @@ fn structs_of_older_and_newer_headers_are_read_and_written_as_far_as_they_go() {
             } else if given > words {
                 let mut room = room;
                 room[given - 1] = 1;
-                assert_eq!(call(&world, room.as_mut_ptr()), INVALID, "{name}");
+                assert_eq!(call(&world, room.as_mut_ptr()), INVALID_STRUCT, "{name}");
             }
         }
     }
@@ -142,7 +140,6 @@ fn structs_of_older_and_newer_headers_are_read_and_written_as_far_as_they_go() {
 
 #[test]
 fn options_out_of_their_range_are_refused_and_nothing_is_filled() {
-    use HOLEFILL_STATUS_INVALID_ARGUMENT as INVALID;
     let mesh = holed_mesh();
     let before = digest(mesh.0);
     let changes: [Change<HolefillFillOptions>; 10] = [
@@ -154,8 +151,8 @@ fn options_out_of_their_range_are_refused_and_nothing_is_filled() {
         (|o| o.time_budget = f64::NAN, INVALID),
         (|o| o.time_budget = f64::INFINITY, INVALID),
         (|o| o.max_new_vertices = u64::MAX, INVALID),
-        (|o| o.threads = 1025, HOLEFILL_STATUS_LIMIT),
-        (|o| o.parameters.id = 99, HOLEFILL_STATUS_INVALID_HANDLE),
+        (|o| o.threads = 1025, LIMIT),
+        (|o| o.parameters.id = 99, INVALID_HANDLE),
     ];
     for (k, (change, expected)) in changes.into_iter().enumerate() {
         let mut given = options();
@@ -167,7 +164,6 @@ fn options_out_of_their_range_are_refused_and_nothing_is_filled() {
 
 #[test]
 fn what_is_not_there_is_not_found() {
-    use HOLEFILL_STATUS_NOT_FOUND as NONE;
     let mesh = holed_mesh();
     let before = digest(mesh.0);
     let count = info(mesh.0).vertex_count;
@@ -176,39 +172,30 @@ fn what_is_not_there_is_not_found() {
     let far = rows(&[0_u64, u64::MAX - 9]);
     let none = rows(&[0_u32, 2]);
     let negative = rows(&[-1_i32]);
-    let mut bad_edge = structs::blank::<HolefillSelection>();
+    let mut bad_edge = HolefillSelection::default();
     bad_edge.only = rows(&[[0_u32, 1]]);
     let reserved = HolefillTarget {
         reserved: 1,
         ..every_loop()
     };
     for (target, expected) in [
-        (at_loop(2), NONE),
-        (at_loop(u64::from(u32::MAX) + 1), NONE),
-        (at_loop(u64::MAX), NONE),
-        (at_edge([to, from]), NONE),
-        (at_edge([from, from]), NONE),
-        (at_edge([count, 0]), HOLEFILL_STATUS_INDEX_OUT_OF_RANGE),
-        (at_edge([0, u64::MAX]), HOLEFILL_STATUS_INDEX_OUT_OF_RANGE),
-        (at_ids(HOLEFILL_TARGET_VERTICES, &chain), NONE),
-        (at_ids(HOLEFILL_TARGET_LOOPS, &none), NONE),
-        (
-            at_ids(HOLEFILL_TARGET_LOOPS, &far),
-            HOLEFILL_STATUS_INDEX_OUT_OF_RANGE,
-        ),
-        (
-            at_ids(HOLEFILL_TARGET_LOOPS, &negative),
-            HOLEFILL_STATUS_INVALID_ARGUMENT,
-        ),
-        (target(HOLEFILL_TARGET_LOOPS), HOLEFILL_STATUS_NULL_POINTER),
-        (
-            target(HOLEFILL_TARGET_VERTICES),
-            HOLEFILL_STATUS_NULL_POINTER,
-        ),
-        (selected(&bad_edge), HOLEFILL_STATUS_INVALID_ARGUMENT),
-        (target(5), HOLEFILL_STATUS_INVALID_ARGUMENT),
-        (target(u32::MAX), HOLEFILL_STATUS_INVALID_ARGUMENT),
-        (reserved, HOLEFILL_STATUS_INVALID_STRUCT),
+        (at_loop(2), NOT_FOUND),
+        (at_loop(u64::from(u32::MAX) + 1), NOT_FOUND),
+        (at_loop(u64::MAX), NOT_FOUND),
+        (at_edge([to, from]), NOT_FOUND),
+        (at_edge([from, from]), NOT_FOUND),
+        (at_edge([count, 0]), OUT_OF_RANGE),
+        (at_edge([0, u64::MAX]), OUT_OF_RANGE),
+        (at_ids(HOLEFILL_TARGET_VERTICES, &chain), NOT_FOUND),
+        (at_ids(HOLEFILL_TARGET_LOOPS, &none), NOT_FOUND),
+        (at_ids(HOLEFILL_TARGET_LOOPS, &far), OUT_OF_RANGE),
+        (at_ids(HOLEFILL_TARGET_LOOPS, &negative), INVALID),
+        (target(HOLEFILL_TARGET_LOOPS), NULL),
+        (target(HOLEFILL_TARGET_VERTICES), NULL),
+        (selected(&bad_edge), INVALID),
+        (target(5), INVALID),
+        (target(u32::MAX), INVALID),
+        (reserved, INVALID_STRUCT),
     ] {
         let (status, report) = report_of(mesh.0, &target, &options());
         assert_eq!((status, report.id), (expected, 0), "{target:?}");
@@ -223,16 +210,16 @@ fn what_is_not_there_is_not_found() {
     unsafe {
         for first in [count - 1, count, u64::MAX] {
             let status = holefill_mesh_read_positions(mesh.0, first, &output, nothing());
-            assert_eq!(status, NONE);
+            assert_eq!(status, NOT_FOUND);
         }
         let mut error = HolefillError::default();
         let status = holefill_mesh_find_edge(mesh.0, to, from, &mut id, &mut error);
-        assert_eq!(status, NONE);
+        assert_eq!(status, NOT_FOUND);
         assert!(message(error).contains("runs from"));
         holefill_error_free(error);
         for element in [0, 3, u32::MAX] {
             let status = holefill_mesh_attribute_count(mesh.0, element, &mut id, nothing());
-            assert_eq!(status, HOLEFILL_STATUS_INVALID_ARGUMENT);
+            assert_eq!(status, INVALID);
         }
     }
     assert_eq!(digest(mesh.0), before);
@@ -243,20 +230,14 @@ fn a_loop_that_is_closed_or_cannot_be_filled_is_refused() {
     let mesh = holed_mesh();
     fill_loop(mesh.0, 0, &options());
     let before = digest(mesh.0);
-    assert_eq!(
-        fill_loop(mesh.0, 0, &options()),
-        HOLEFILL_STATUS_INVALID_ARGUMENT
-    );
+    assert_eq!(fill_loop(mesh.0, 0, &options()), INVALID);
     assert_eq!(digest(mesh.0), before);
     let turned = mesh_of(&fixtures::moebius(12));
     let twisted = (0..loop_count(turned.0))
         .find(|&id| loop_info(turned.0, id).loop_class >= HOLEFILL_CLASS_NOT_ORIENTED);
     if let Some(id) = twisted {
-        assert_eq!(
-            fill_loop(turned.0, id, &options()),
-            HOLEFILL_STATUS_TOPOLOGY
-        );
-        assert_eq!(fill_all(turned.0, &options()), HOLEFILL_STATUS_INCOMPLETE);
+        assert_eq!(fill_loop(turned.0, id, &options()), TOPOLOGY);
+        assert_eq!(fill_all(turned.0, &options()), INCOMPLETE);
     }
 }
 
@@ -265,20 +246,20 @@ fn plans_that_no_longer_fit_are_refused() {
     let mesh = holed_mesh();
     let other = holed_mesh();
     let plan = plan_loop(mesh.0, 0, &options());
-    assert_eq!(apply(plan, other.0), HOLEFILL_STATUS_STALE_PLAN);
+    assert_eq!(apply(plan, other.0), STALE_PLAN);
     // A fill elsewhere does not matter, nor does its undo.
     fill_loop(mesh.0, 1, &options());
     let late = plan_loop(mesh.0, 0, &options());
     undo(mesh.0);
     let before = digest(mesh.0);
-    assert_eq!(apply(late, mesh.0), HOLEFILL_STATUS_STALE_PLAN);
+    assert_eq!(apply(late, mesh.0), STALE_PLAN);
     assert_eq!(digest(mesh.0), before);
-    assert_eq!(apply(plan, mesh.0), HOLEFILL_STATUS_OK);
+    assert_eq!(apply(plan, mesh.0), OK);
     undo(mesh.0);
     let labels = vec![0_u8; info(mesh.0).vertex_count as usize];
     let values = rows(&labels);
     call!(holefill_mesh_add_attribute: mesh.0, 1, c"label".as_ptr(), 1, &values);
-    assert_eq!(apply(plan, mesh.0), HOLEFILL_STATUS_STALE_PLAN);
+    assert_eq!(apply(plan, mesh.0), STALE_PLAN);
     holefill_plan_free(plan);
     holefill_plan_free(late);
 }
@@ -300,7 +281,7 @@ fn one_error_object_serves_many_calls() {
         holefill_mesh_prepare(mesh.0, &mut error);
         assert!(message(error).contains("50"), "success leaves it alone");
     }
-    assert_eq!(holefill_error_free(error), HOLEFILL_STATUS_OK);
+    assert_eq!(holefill_error_free(error), OK);
 }
 
 #[test]
@@ -310,18 +291,18 @@ fn a_panic_becomes_a_status_and_poisons_the_mesh_that_was_in_use() {
     let panicking = guard::guard(&mut error, || {
         mesh.0.with(|_| -> Result<(), _> { panic!("on purpose") })
     });
-    assert_eq!(panicking, HOLEFILL_STATUS_PANIC);
+    assert_eq!(panicking, PANIC);
     assert!(message(error).contains("on purpose"));
     holefill_error_free(error);
-    assert_eq!(fill_loop(mesh.0, 0, &options()), HOLEFILL_STATUS_POISONED);
+    assert_eq!(fill_loop(mesh.0, 0, &options()), POISONED);
     let mut count = 0;
     let status = call!(holefill_mesh_loop_count: mesh.0, &mut count);
-    assert_eq!(status, HOLEFILL_STATUS_POISONED);
+    assert_eq!(status, POISONED);
     let other = holed_mesh();
     let panicking = guard::guard(nothing(), || {
         objects::with_mesh_mut::<()>(other.0, |_| panic!("on purpose"))
     });
-    assert_eq!(panicking, HOLEFILL_STATUS_PANIC);
-    assert_eq!(undo(other.0), HOLEFILL_STATUS_POISONED);
-    assert_eq!(holefill_mesh_free(other.0), HOLEFILL_STATUS_OK);
+    assert_eq!(panicking, PANIC);
+    assert_eq!(undo(other.0), POISONED);
+    assert_eq!(holefill_mesh_free(other.0), OK);
 }

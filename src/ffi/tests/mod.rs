@@ -11,14 +11,14 @@ macro_rules! call {
 /// Makes a call that must succeed.
 macro_rules! ok {
     ($function:ident: $($argument:expr),*) => {
-        assert_eq!(call!($function: $($argument),*), HOLEFILL_STATUS_OK)
+        assert_eq!(call!($function: $($argument),*), OK)
     };
 }
 
 /// The struct that a call writes, which must succeed.
 macro_rules! got {
     ($function:ident: $($argument:expr),*) => {{
-        let mut value = structs::blank();
+        let mut value = Default::default();
         ok!($function: $($argument,)* &mut value);
         value
     }};
@@ -43,6 +43,19 @@ mod refusals;
 mod sessions;
 mod threads;
 
+use super::status::{
+    HOLEFILL_STATUS_BUFFER_TOO_SMALL as TOO_SMALL, HOLEFILL_STATUS_BUSY as BUSY,
+    HOLEFILL_STATUS_CANCELLED as CANCELLED, HOLEFILL_STATUS_INCOMPLETE as INCOMPLETE,
+    HOLEFILL_STATUS_INDEX_OUT_OF_RANGE as OUT_OF_RANGE,
+    HOLEFILL_STATUS_INVALID_ARGUMENT as INVALID, HOLEFILL_STATUS_INVALID_HANDLE as INVALID_HANDLE,
+    HOLEFILL_STATUS_INVALID_STRUCT as INVALID_STRUCT, HOLEFILL_STATUS_LIMIT as LIMIT,
+    HOLEFILL_STATUS_NOT_FINITE as NOT_FINITE, HOLEFILL_STATUS_NOT_FOUND as NOT_FOUND,
+    HOLEFILL_STATUS_NOTHING_TO_UNDO as NOTHING_TO_UNDO, HOLEFILL_STATUS_NULL_POINTER as NULL,
+    HOLEFILL_STATUS_OK as OK, HOLEFILL_STATUS_OUT_OF_MEMORY as NO_MEMORY,
+    HOLEFILL_STATUS_OVERFLOW as OVERFLOW, HOLEFILL_STATUS_PANIC as PANIC,
+    HOLEFILL_STATUS_POISONED as POISONED, HOLEFILL_STATUS_STALE_PLAN as STALE_PLAN,
+    HOLEFILL_STATUS_TOPOLOGY as TOPOLOGY,
+};
 use super::*;
 use crate::fixtures::{self, Arrays};
 use std::ffi::{CStr, CString, c_char, c_void};
@@ -106,7 +119,7 @@ fn read<T: Numbers + Clone>(
     call: impl FnOnce(&HolefillOutput) -> HolefillStatus,
 ) -> Vec<T> {
     let mut values = vec![zero; count as usize];
-    assert_eq!(call(&place(&mut values)), HOLEFILL_STATUS_OK);
+    assert_eq!(call(&place(&mut values)), OK);
     values
 }
 
@@ -211,16 +224,16 @@ type Writer<'a> = &'a dyn Fn(*mut c_char, u64, *mut u64) -> HolefillStatus;
 /// Reads a text by two calls, and checks what happens when it does not fit.
 fn text(write: Writer<'_>) -> String {
     let mut length = u64::MAX;
-    assert_eq!(write(ptr::null_mut(), 0, &mut length), HOLEFILL_STATUS_OK);
+    assert_eq!(write(ptr::null_mut(), 0, &mut length), OK);
     let size = length as usize;
     let mut buffer = vec![0x55_u8; size + 2];
     if size > 0 {
         let status = write(buffer.as_mut_ptr().cast(), size as u64, &mut length);
-        assert_eq!(status, HOLEFILL_STATUS_BUFFER_TOO_SMALL);
+        assert_eq!(status, TOO_SMALL);
         assert!(buffer.iter().all(|&b| b == 0x55), "nothing is written");
     }
     let status = write(buffer.as_mut_ptr().cast(), size as u64 + 1, &mut length);
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    assert_eq!(status, OK);
     assert_eq!(
         (length as usize, buffer[size], buffer[size + 1]),
         (size, 0, 0x55)
@@ -244,7 +257,7 @@ fn message(error: HolefillError) -> String {
 }
 
 fn options() -> HolefillFillOptions {
-    let mut options = structs::blank::<HolefillFillOptions>();
+    let mut options = HolefillFillOptions::default();
     options.threads = 1;
     options
 }
@@ -260,7 +273,7 @@ fn with_method(method: &'static CStr) -> HolefillFillOptions {
 fn target(kind: HolefillTargetKind) -> HolefillTarget {
     HolefillTarget {
         kind,
-        ..structs::blank()
+        ..Default::default()
     }
 }
 

@@ -36,7 +36,7 @@ fn make(
     given: &Given,
 ) -> (HolefillStatus, Owned, HolefillPointSummary, String) {
     let mut mesh = HolefillMesh { id: 77 };
-    let mut summary = structs::blank::<HolefillPointSummary>();
+    let mut summary = HolefillPointSummary::default();
     let mut error = HolefillError::default();
     // SAFETY: all pointers are null or to living values.
     let status = unsafe {
@@ -50,7 +50,7 @@ fn make(
             &mut error,
         )
     };
-    if status == HOLEFILL_STATUS_OK {
+    if status == OK {
         return (status, Owned(mesh), summary, String::new());
     }
     assert_eq!(mesh.id, 77, "an output is written only on success");
@@ -64,7 +64,7 @@ fn make(
 fn point_options() -> HolefillPointOptions {
     HolefillPointOptions {
         threads: 1,
-        ..structs::blank()
+        ..Default::default()
     }
 }
 
@@ -92,7 +92,7 @@ fn a_mesh_from_points_is_that_of_the_rust_call() {
             ..Given::default()
         };
         let (status, mesh, summary, _) = make(&view, &given);
-        assert_eq!(status, HOLEFILL_STATUS_OK);
+        assert_eq!(status, OK);
         assert_eq!(positions(mesh.0), points);
         assert_eq!(triangles(mesh.0), expected.triangles());
         assert_eq!(summary.used as usize, report.used);
@@ -101,7 +101,7 @@ fn a_mesh_from_points_is_that_of_the_rust_call() {
         assert_eq!(summary.estimated_normals as usize, points.len());
         assert_eq!(summary.radius, report.radius);
         assert_eq!(loop_count(mesh.0), 2);
-        assert_eq!(fill_all(mesh.0, &super::options()), HOLEFILL_STATUS_OK);
+        assert_eq!(fill_all(mesh.0, &super::options()), OK);
     }
 }
 
@@ -142,7 +142,7 @@ fn points_may_stand_anywhere_and_duplicates_stay_as_vertices() {
         options: None,
     };
     let (status, mesh, summary, _) = make(&view(1, HOLEFILL_TYPE_F32), &given);
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    assert_eq!(status, OK);
     assert_eq!((summary.duplicates, summary.estimated_normals), (1, 1));
     let (positions, triangles) = (positions(mesh.0), triangles(mesh.0));
     assert_eq!(positions.len(), samples.len());
@@ -173,7 +173,7 @@ fn points_that_make_no_mesh_are_refused() {
     let same = vec![[1.0, 2.0, 3.0]; 30];
     for few in [&[][..], &good[..1], &good[..3], &line, &same] {
         let (status, .., text) = make(&rows(few), &Given::default());
-        assert_eq!(status, HOLEFILL_STATUS_INVALID_ARGUMENT, "{text}");
+        assert_eq!(status, INVALID, "{text}");
     }
     // Colors are data that is carried on, whatever it is.
     let mut points = good.clone();
@@ -183,17 +183,16 @@ fn points_that_make_no_mesh_are_refused() {
         ..Given::default()
     };
     let status = refused(&rows(&good), &given);
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    assert_eq!(status, OK);
 }
 
 #[test]
 fn options_for_points_are_checked() {
-    use HOLEFILL_STATUS_INVALID_ARGUMENT as INVALID;
     let points = cloud();
     let view = rows(&points);
     let changes: [Change<HolefillPointOptions>; 15] = [
-        (|_| {}, HOLEFILL_STATUS_OK),
-        (|o| o.time_budget = 1e6, HOLEFILL_STATUS_OK),
+        (|_| {}, OK),
+        (|o| o.time_budget = 1e6, OK),
         (|o| o.radius = -1.0, INVALID),
         (|o| o.radius = f64::NAN, INVALID),
         (|o| o.radius = f64::INFINITY, INVALID),
@@ -206,8 +205,8 @@ fn options_for_points_are_checked() {
         (|o| o.neighbours = 5, INVALID),
         (|o| o.neighbours = 201, INVALID),
         (|o| o.neighbours = u32::MAX, INVALID),
-        (|o| o.threads = 1025, HOLEFILL_STATUS_LIMIT),
-        (|o| o.time_budget = 1e-9, HOLEFILL_STATUS_LIMIT),
+        (|o| o.threads = 1025, LIMIT),
+        (|o| o.time_budget = 1e-9, LIMIT),
     ];
     for (k, (change, expected)) in changes.into_iter().enumerate() {
         let mut options = point_options();
@@ -238,10 +237,10 @@ fn making_a_mesh_from_points_can_be_stopped_at_every_call() {
         };
         let (status, ..) = make(&view, &given);
         if left >= 0 {
-            assert_eq!(status, HOLEFILL_STATUS_OK);
+            assert_eq!(status, OK);
             break;
         }
-        assert_eq!(status, HOLEFILL_STATUS_CANCELLED, "call {n}");
+        assert_eq!(status, CANCELLED, "call {n}");
         n += 1 + n / 3;
     }
     assert!(n > 0, "the callback is asked");

@@ -30,7 +30,7 @@ fn every_method_is_reached() {
             ..options()
         };
         let (status, report) = report_of(mesh.0, &at_loop(0), &options);
-        assert_eq!(status, HOLEFILL_STATUS_OK, "{method}");
+        assert_eq!(status, OK, "{method}");
         let hole = hole(report, 0);
         let mut used: Vec<&str> = static_text(hole.method).into_iter().collect();
         for attempt in 0..hole.tried_count {
@@ -54,12 +54,12 @@ fn set(parameters: HolefillParameters, name: &str, value: &str) -> bool {
     // SAFETY: the texts end with a zero byte.
     let status =
         unsafe { holefill_parameters_set(parameters, name.as_ptr(), value.as_ptr(), &mut error) };
-    if status != HOLEFILL_STATUS_OK {
-        assert_eq!(status, HOLEFILL_STATUS_INVALID_ARGUMENT);
+    if status != OK {
+        assert_eq!(status, INVALID);
         assert!(message(error).contains(name.to_str().unwrap()));
         holefill_error_free(error);
     }
-    status == HOLEFILL_STATUS_OK
+    status == OK
 }
 
 fn get(parameters: HolefillParameters, name: &str) -> String {
@@ -118,13 +118,13 @@ fn every_parameter_is_reached() {
     let (mut error, no) = (HolefillError::default(), c"no".as_ptr());
     // SAFETY: the texts are static.
     let status = unsafe { holefill_parameters_set(parameters, no, no, &mut error) };
-    assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
+    assert_eq!(status, NOT_FOUND);
     assert!(message(error).contains("refine.density"));
     holefill_error_free(error);
     // And a fill that is given them gets them.
     let given = HolefillFillOptions {
         parameters,
-        ..structs::blank()
+        ..Default::default()
     };
     // SAFETY: the pointer is to a living value.
     let (read, _) = unsafe { super::super::options::read_options(&given) }.expect("allowed");

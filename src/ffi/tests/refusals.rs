@@ -9,9 +9,6 @@ use super::*;
 
 const HEADER: &str = include_str!("../../../include/holefill.h");
 
-const OK: HolefillStatus = HOLEFILL_STATUS_OK;
-const NULL: HolefillStatus = HOLEFILL_STATUS_NULL_POINTER;
-
 const HANDLES: [(&str, u8); 5] = [
     ("HolefillMesh", HolefillMesh::KIND),
     ("HolefillPlan", HolefillPlan::KIND),
@@ -164,7 +161,7 @@ impl World {
     fn blank<T: structs::CStruct>(&mut self) -> *mut T {
         let place: *mut T = self.room.as_mut_ptr().cast();
         // SAFETY: every struct is smaller than the room.
-        unsafe { place.write(structs::blank()) };
+        unsafe { place.write(Default::default()) };
         place
     }
 
@@ -286,7 +283,7 @@ macro_rules! checked {
         Some(($name, $status))
     };
     ({$handle:ident $known:expr}) => {
-        Some((stringify!($handle), HOLEFILL_STATUS_INVALID_HANDLE))
+        Some((stringify!($handle), INVALID_HANDLE))
     };
 }
 
@@ -362,7 +359,7 @@ fn wrong_pointers_and_handles_are_refused_by_every_function() {
         new holefill_mesh_from_polyline(["points", &w.points()], ["normals", &w.points(), OK],
             ["mesh", w.out(0)]);
         new holefill_mesh_from_points(["points", &w.points()], ["normals", &w.points(), OK],
-            ["colors", &w.points(), OK], ["options", &structs::blank(), OK], ["mesh", w.out(0)],
+            ["colors", &w.points(), OK], ["options", &Default::default(), OK], ["mesh", w.out(0)],
             ["summary", w.blank(), OK]);
         mesh holefill_mesh_info(["info", w.blank()]);
         mesh holefill_mesh_defects(["defects", w.blank()]);
@@ -380,7 +377,7 @@ fn wrong_pointers_and_handles_are_refused_by_every_function() {
         mesh holefill_mesh_find_edge((w.chain[0]), (w.chain[1]), ["loop_id", w.out(0)]);
         mesh holefill_mesh_find_vertices(["vertices", &rows(&w.chain)], ["ids", w.out(1)], (8),
             ["count", w.out(0)]);
-        mesh holefill_mesh_select(["selection", &structs::blank(), OK], ["ids", w.out(1)], (8),
+        mesh holefill_mesh_select(["selection", &Default::default(), OK], ["ids", w.out(1)], (8),
             ["count", w.out(0)]);
         new holefill_parameters_new(["parameters", w.out(0)]);
         parameters holefill_parameters_set(["name", density], ["value", c"0.5".as_ptr()]);
@@ -420,13 +417,13 @@ fn a_handle_is_freed_once_and_as_what_it_is() {
         for id in world.strangers(kind) {
             let expected = match id {
                 0 => OK,
-                _ => HOLEFILL_STATUS_INVALID_HANDLE,
+                _ => INVALID_HANDLE,
             };
             assert_eq!(free(kind, id), expected, "{kind} {id:x}");
         }
         let (_, id) = world.living()[usize::from(kind) - 1];
         assert_eq!(free(kind, id), OK, "{kind}");
-        assert_eq!(free(kind, id), HOLEFILL_STATUS_INVALID_HANDLE, "{kind}");
+        assert_eq!(free(kind, id), INVALID_HANDLE, "{kind}");
     }
 }
 
@@ -480,9 +477,6 @@ macro_rules! places {
 }
 /// Rows within the address space, but beyond any memory.
 const TOO_MANY: u64 = (1 << 55) / 24;
-use HOLEFILL_STATUS_INVALID_ARGUMENT as INVALID;
-use HOLEFILL_STATUS_NOT_FOUND as NOT_FOUND;
-use HOLEFILL_STATUS_OUT_OF_MEMORY as NO_MEMORY;
 places! {
     "positions" 24 POINT_TYPES |_| TOO_MANY, NO_MEMORY, (a, s)
         makes(|m| call!(holefill_mesh_from_arrays: &s(rows(&a.positions)), &rows(&a.triangles), m));
@@ -519,7 +513,6 @@ fn place(name: &str) -> &'static Place {
 
 #[test]
 fn rows_that_cannot_be_are_refused_in_every_place() {
-    use HOLEFILL_STATUS_OVERFLOW as OVERFLOW;
     let arrays = fixtures::sphere(4).cut(|c| c[2] > 0.75);
     for place in PLACES {
         let check = |expected: HolefillStatus, spoil: &dyn Fn(&mut HolefillInput)| {
@@ -531,7 +524,7 @@ fn rows_that_cannot_be_are_refused_in_every_place() {
         };
         check(OK, &|_| {});
         check(NULL, &|v| v.data = ptr::null());
-        check(HOLEFILL_STATUS_INVALID_STRUCT, &|v| v.reserved = 1);
+        check(INVALID_STRUCT, &|v| v.reserved = 1);
         for huge in [u64::MAX, u64::MAX / 2, 1 << 60] {
             check(OVERFLOW, &|v| v.count = huge);
             check(OVERFLOW, &|v| (v.count, v.stride) = (2, huge));
@@ -550,7 +543,7 @@ fn rows_that_cannot_be_are_refused_in_every_place() {
     for (name, expected) in [
         ("output", OK),
         ("triangles", OK),
-        ("positions", HOLEFILL_STATUS_INDEX_OUT_OF_RANGE),
+        ("positions", OUT_OF_RANGE),
     ] {
         let empty = |view: HolefillInput| HolefillInput {
             data: ptr::null(),
@@ -588,7 +581,7 @@ fn numbers_that_cannot_be_are_refused_with_their_place() {
         let singles = points.map(|p| p.map(|c| c as f32));
         for view in [rows(&points), rows(&singles)] {
             let (status, text) = made(&view, &faces);
-            assert_eq!(status, HOLEFILL_STATUS_NOT_FINITE);
+            assert_eq!(status, NOT_FINITE);
             assert!(text.contains("row 1"), "{text}");
             for name in [
                 "polyline",
@@ -597,7 +590,7 @@ fn numbers_that_cannot_be_are_refused_with_their_place() {
                 "normals of points",
             ] {
                 let status = (place(name).call)(&small, &|_| view);
-                assert_eq!(status, HOLEFILL_STATUS_NOT_FINITE, "{name}");
+                assert_eq!(status, NOT_FINITE, "{name}");
             }
         }
     }
@@ -605,14 +598,15 @@ fn numbers_that_cannot_be_are_refused_with_their_place() {
     let wide = u64::from(u32::MAX);
     for bad in [3, wide, 1 << 32, i64::MAX as u64, u64::MAX] {
         let (status, text) = made(&points, &rows(&[[0, bad, 1]]));
-        assert_eq!(status, HOLEFILL_STATUS_INDEX_OUT_OF_RANGE, "{bad}");
+        assert_eq!(status, OUT_OF_RANGE, "{bad}");
         assert!(text.contains(&bad.to_string()), "{text}");
     }
     for bad in [-1, i32::MIN] {
         // A gap between the rows takes the other way to read them.
+        let apart = [[0, bad, 1, 9]];
         let gap = HolefillInput {
             stride: 16,
-            ..rows(&[[0, bad, 1, 9]])
+            ..rows(&apart)
         };
         let wide = [[0, i64::from(bad), 1]];
         for view in [rows(&[[0, bad, 1]]), gap, rows(&wide)] {

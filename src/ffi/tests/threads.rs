@@ -21,24 +21,10 @@ fn random_call(
     mesh: HolefillMesh,
     noise: &mut Noise,
 ) -> (HolefillStatus, &'static [HolefillStatus]) {
-    const READS: &[HolefillStatus] = &[HOLEFILL_STATUS_OK, HOLEFILL_STATUS_BUSY];
-    const FILLS: &[HolefillStatus] = &[
-        HOLEFILL_STATUS_OK,
-        HOLEFILL_STATUS_BUSY,
-        HOLEFILL_STATUS_INVALID_ARGUMENT,
-    ];
-    const UNDOES: &[HolefillStatus] = &[
-        HOLEFILL_STATUS_OK,
-        HOLEFILL_STATUS_BUSY,
-        HOLEFILL_STATUS_NOTHING_TO_UNDO,
-    ];
-    const APPLIES: &[HolefillStatus] = &[
-        HOLEFILL_STATUS_OK,
-        HOLEFILL_STATUS_INCOMPLETE,
-        HOLEFILL_STATUS_BUSY,
-        HOLEFILL_STATUS_INVALID_ARGUMENT,
-        HOLEFILL_STATUS_STALE_PLAN,
-    ];
+    const READS: &[HolefillStatus] = &[OK, BUSY];
+    const FILLS: &[HolefillStatus] = &[OK, BUSY, INVALID];
+    const UNDOES: &[HolefillStatus] = &[OK, BUSY, NOTHING_TO_UNDO];
+    const APPLIES: &[HolefillStatus] = &[OK, INCOMPLETE, BUSY, INVALID, STALE_PLAN];
     let id = u64::from(noise.below(2));
     let options = with_method([c"flat", c"membrane", c"fair-c1"][noise.below(3) as usize]);
     let mut number = 0;
@@ -56,7 +42,7 @@ fn random_call(
                 (status, READS)
             }
             6 => {
-                let mut info = structs::blank();
+                let mut info = Default::default();
                 (
                     holefill_mesh_loop_info(mesh, id, &mut info, nothing()),
                     READS,
@@ -67,7 +53,7 @@ fn random_call(
             10 => {
                 let mut plan = HolefillPlan::default();
                 let status = holefill_mesh_plan(mesh, &at_loop(id), &options, &mut plan, nothing());
-                if status == HOLEFILL_STATUS_OK {
+                if status == OK {
                     let status = apply(plan, mesh);
                     holefill_plan_free(plan);
                     return (status, APPLIES);
@@ -86,8 +72,8 @@ fn random_call(
 
 /// Undoes everything and fills with `fair-c1`.
 fn settle(mesh: HolefillMesh) -> u64 {
-    while undo(mesh) == HOLEFILL_STATUS_OK {}
-    assert_eq!(fill_all(mesh, &with_method(c"fair-c1")), HOLEFILL_STATUS_OK);
+    while undo(mesh) == OK {}
+    assert_eq!(fill_all(mesh, &with_method(c"fair-c1")), OK);
     digest(mesh)
 }
 
@@ -109,7 +95,7 @@ fn eight_threads_on_shared_and_own_meshes_leave_what_one_thread_leaves() {
                 // Nobody else uses it: the same statuses and states in every run.
                 let (status, allowed) = random_call(own.0, &mut noise);
                 assert!(allowed.contains(&status), "{status} on an own mesh");
-                assert_ne!(status, HOLEFILL_STATUS_BUSY);
+                assert_ne!(status, BUSY);
                 trace.push(status);
             }
         }
@@ -157,11 +143,11 @@ fn a_mesh_may_be_freed_while_it_is_filled() {
                 std::thread::yield_now();
             }
             std::thread::sleep(std::time::Duration::from_micros(wait));
-            assert_eq!(holefill_mesh_free(mesh), HOLEFILL_STATUS_OK);
+            assert_eq!(holefill_mesh_free(mesh), OK);
             filling.join().unwrap()
         });
-        assert_eq!(status, HOLEFILL_STATUS_OK);
-        assert_eq!(undo(mesh), HOLEFILL_STATUS_INVALID_HANDLE);
+        assert_eq!(status, OK);
+        assert_eq!(undo(mesh), INVALID_HANDLE);
     }
 }
 
@@ -204,14 +190,8 @@ fn callbacks_may_call_the_library() {
         ..options()
     };
     let plan = plan_loop(mesh.0, 0, &options);
-    assert_eq!(
-        (seen.read, seen.written, seen.elsewhere),
-        (HOLEFILL_STATUS_OK, HOLEFILL_STATUS_BUSY, HOLEFILL_STATUS_OK)
-    );
+    assert_eq!((seen.read, seen.written, seen.elsewhere), (OK, BUSY, OK));
     holefill_plan_free(plan);
-    assert_eq!(fill_loop(mesh.0, 0, &options), HOLEFILL_STATUS_OK);
-    assert_eq!(
-        (seen.read, seen.written),
-        (HOLEFILL_STATUS_BUSY, HOLEFILL_STATUS_BUSY)
-    );
+    assert_eq!(fill_loop(mesh.0, 0, &options), OK);
+    assert_eq!((seen.read, seen.written), (BUSY, BUSY));
 }

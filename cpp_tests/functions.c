@@ -90,18 +90,30 @@ static void check_attributes(HolefillMesh mesh, const Sheet *sheet) {
     free(colors);
 }
 
+/* A directed edge of the first hole. */
+static HolefillTarget at_edge(const Sheet *sheet) {
+    HolefillTarget made = target(HOLEFILL_TARGET_EDGE);
+    made.edge[0] = sheet->hole_edge[0];
+    made.edge[1] = sheet->hole_edge[1];
+    return made;
+}
+
 /* The id of the first hole. */
 static uint64_t first_hole(HolefillMesh mesh, const Sheet *sheet) {
-    uint64_t id = 0;
-    CHECK_OK(holefill_mesh_find_edge(mesh, sheet->hole_edge[0], sheet->hole_edge[1], &id, NULL));
+    const HolefillTarget edge = at_edge(sheet);
+    uint64_t id = 0, count = 0;
+    CHECK_OK(holefill_mesh_find_loops(mesh, &edge, &id, 1, &count, NULL));
+    CHECK(count == 1);
     return id;
 }
 
 static void check_loops(HolefillMesh mesh, const Sheet *sheet) {
     HolefillLoopInfo info = HOLEFILL_LOOP_INFO_INIT;
     HolefillSelection selection = HOLEFILL_SELECTION_INIT;
+    HolefillTarget selected = target(HOLEFILL_TARGET_SELECTED);
     uint32_t vertices[4 * SHEET_HOLE];
-    uint64_t count = 0, id = 0, found = 0, ids[32];
+    const HolefillOutput output = room(vertices, 4 * SHEET_HOLE, HOLEFILL_TYPE_U32);
+    uint64_t count = 0, id = 0, ids[32];
     CHECK_OK(holefill_mesh_prepare(mesh, NULL));
     CHECK_OK(holefill_mesh_loop_count(mesh, &count, NULL));
     CHECK(count == sheet->hole_count + 1);
@@ -109,14 +121,11 @@ static void check_loops(HolefillMesh mesh, const Sheet *sheet) {
     CHECK_OK(holefill_mesh_loop_info(mesh, id, &info, NULL));
     CHECK(info.edge_count == 4 * SHEET_HOLE && info.vertex_count == info.edge_count && info.is_open == 1);
     CHECK(info.perimeter >= 4 * SHEET_HOLE && info.loop_class == HOLEFILL_CLASS_SIMPLE);
-    HolefillOutput output = room(vertices, info.vertex_count, HOLEFILL_TYPE_U32);
     CHECK_OK(holefill_mesh_read_loop(mesh, id, 0, &output, NULL));
-    const HolefillInput chain = rows(vertices, info.vertex_count, HOLEFILL_TYPE_U32);
-    CHECK_OK(holefill_mesh_find_vertices(mesh, &chain, NULL, 0, &count, NULL));
-    CHECK_OK(holefill_mesh_find_vertices(mesh, &chain, &found, 1, &count, NULL));
-    CHECK(count == 1 && found == id);
     selection.keep_largest = 1;
-    CHECK_OK(holefill_mesh_select(mesh, &selection, ids, 32, &count, NULL));
+    selected.selection = &selection;
+    CHECK_OK(holefill_mesh_find_loops(mesh, &selected, NULL, 0, &count, NULL));
+    CHECK_OK(holefill_mesh_find_loops(mesh, &selected, ids, 32, &count, NULL));
     CHECK(count == sheet->hole_count);
 }
 
@@ -187,30 +196,29 @@ static HolefillTarget at_loop(uint64_t id) {
     return made;
 }
 
-/* Fills the first hole, named in every way, and undoes it, or plans it. */
+/* Finds the first hole, named in every way, fills and undoes it, and plans it. */
 static void check_targets(HolefillMesh mesh, const Sheet *sheet) {
     HolefillTarget ways[4];
     HolefillReport report = {0};
     HolefillPlan plan = {0};
     int32_t vertices[4 * SHEET_HOLE];
-    uint64_t id = 0;
-    int64_t signed_id;
-    int i;
-    id = first_hole(mesh, sheet);
-    HolefillOutput output = room(vertices, 4 * SHEET_HOLE, HOLEFILL_TYPE_I32);
-    CHECK_OK(holefill_mesh_read_loop(mesh, id, 0, &output, NULL));
+    const uint64_t id = first_hole(mesh, sheet);
+    int64_t signed_id = (int64_t)id;
+    const HolefillOutput output = room(vertices, 4 * SHEET_HOLE, HOLEFILL_TYPE_I32);
     HolefillInput chain = rows(vertices, 4 * SHEET_HOLE, HOLEFILL_TYPE_I32);
-    signed_id = (int64_t)id;
     const HolefillInput ids = rows(&signed_id, 1, HOLEFILL_TYPE_I64);
+    int i;
+    CHECK_OK(holefill_mesh_read_loop(mesh, id, 0, &output, NULL));
     ways[0] = at_loop(id);
-    ways[1] = target(HOLEFILL_TARGET_EDGE);
-    ways[1].edge[0] = sheet->hole_edge[0];
-    ways[1].edge[1] = sheet->hole_edge[1];
+    ways[1] = at_edge(sheet);
     ways[2] = target(HOLEFILL_TARGET_VERTICES);
     ways[2].ids = &chain;
     ways[3] = target(HOLEFILL_TARGET_LOOPS);
     ways[3].ids = &ids;
     for (i = 0; i < 4; ++i) {
+        uint64_t found = 0, count = 0;
+        CHECK_OK(holefill_mesh_find_loops(mesh, &ways[i], &found, 1, &count, NULL));
+        CHECK(count == 1 && found == id);
         CHECK_OK(holefill_mesh_fill(mesh, &ways[i], NULL, &report, NULL));
         check_report(report, 1);
         CHECK_STATUS(holefill_mesh_fill(mesh, &ways[i], NULL, NULL, NULL), HOLEFILL_STATUS_INVALID_ARGUMENT);

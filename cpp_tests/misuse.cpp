@@ -181,7 +181,7 @@ void targets(const Fixture& f) {
         refuse(f, holefill_mesh_fill(f.mesh, &c.target, nullptr, nullptr, nullptr), c.expected);
     }
     uint64_t count = 0, id = 0;
-    refuse(f, holefill_mesh_select(f.mesh, nullptr, &id, 1, &count, nullptr), HOLEFILL_STATUS_BUFFER_TOO_SMALL);
+    refuse(f, holefill_mesh_find_loops(f.mesh, nullptr, &id, 1, &count, nullptr), HOLEFILL_STATUS_BUFFER_TOO_SMALL);
     CHECK(count == f.sheet.hole_count + 1);
 
     // Two triangles whose boundary runs the wrong way along one of them.

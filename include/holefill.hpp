@@ -720,15 +720,11 @@ public:
         const auto info = call.query<HolefillLoopInfo>(HOLEFILL_LOOP_INFO_INIT, holefill_mesh_loop_info, get(), loop_id);
         return call.result(call.rows<uint64_t>(info.vertex_count, 1, holefill_mesh_read_loop, get(), loop_id, 0));
     }
-    Result<uint64_t> find_edge(uint64_t from, uint64_t to) const {
-        return detail::query(uint64_t{0}, holefill_mesh_find_edge, get(), from, to);
-    }
-    Result<std::vector<uint64_t>> find_vertices(const Rows<1>& vertices) const {
-        return detail::list<std::vector<uint64_t>>(holefill_mesh_find_vertices, get(), vertices.get());
-    }
-    Result<std::vector<uint64_t>> select(const Selection& selection) const {
-        const HolefillSelection raw = selection.raw();
-        return detail::list<std::vector<uint64_t>>(holefill_mesh_select, get(), &raw);
+    /* The ids of the loops that a target names: every open loop, if there is none. */
+    Result<std::vector<uint64_t>> find_loops(const Target& target = {}) const {
+        return target.with([&](const HolefillTarget* t) {
+            return detail::list<std::vector<uint64_t>>(holefill_mesh_find_loops, get(), t);
+        });
     }
 
     /* Fills holes: every open loop, if no target is given. */

@@ -5,10 +5,10 @@
 
 use super::failure::{Failure, invalid, nth};
 use super::guard::{guard, guard_with};
-use super::input::Columns;
+use super::input::{copy_column, rows};
 use super::objects::{MeshObject, NamedColumns, with_mesh_mut};
-use super::output::{Sink, Wanted, write};
-use super::rows::ATTRIBUTE_TYPES;
+use super::output::{Sink, write};
+use super::rows::{ATTRIBUTE_TYPES, Rows};
 use super::status::HolefillStatus;
 use super::structs::write_struct;
 use super::text::{read_text, write_text};
@@ -59,9 +59,9 @@ fn find(
 /// The types of attributes, here and in the mesh.
 macro_rules! scalar_types {
     ($($number:ident $variant:ident)*) => {
-        fn column(columns: &Columns, k: usize, what: &str) -> Result<ScalarValues, Failure> {
-            match columns.rows.scalar_type {
-                $($number => Ok(ScalarValues::$variant(columns.column(k, what)?)),)*
+        fn column(rows: &Rows, k: usize, what: &str) -> Result<ScalarValues, Failure> {
+            match rows.scalar_type {
+                $($number => Ok(ScalarValues::$variant(copy_column(rows, k, what)?)),)*
                 other => Err(invalid(format!("{what} cannot have the type {other}"))),
             }
         }
@@ -99,8 +99,8 @@ pub(super) unsafe fn copy_attribute(
     what: &str,
 ) -> Result<Copied, Failure> {
     // SAFETY: the caller's promise.
-    let given = unsafe { Columns::check(values, components as usize, what)? };
-    let rows = given.rows.count;
+    let given = unsafe { rows(values, components as usize, ATTRIBUTE_TYPES, what)? };
+    let rows = given.count;
     if rows != count {
         return Err(invalid(format!(
             "attribute {name} has {rows} rows for {count} elements"
@@ -114,7 +114,7 @@ pub(super) unsafe fn copy_attribute(
     }
     let named = NamedColumns {
         name: name.to_owned(),
-        scalar_type: given.rows.scalar_type,
+        scalar_type: given.scalar_type,
         columns: names,
     };
     Ok((named, columns))
@@ -250,15 +250,10 @@ pub unsafe extern "C" fn holefill_mesh_read_attribute(
 ) -> HolefillStatus {
     guard_with(mesh, error, |object| {
         let (named, attributes) = find(object, element, index)?;
-        let wanted = Wanted {
-            first,
-            total: attributes.len(),
-            width: named.columns.len(),
-            allowed: ATTRIBUTE_TYPES,
-        };
+        let (own, width) = (named.scalar_type, named.columns.len());
         // SAFETY: the caller's promise.
-        let sink = unsafe { Sink::check(output, &wanted)? };
-        let own = named.scalar_type;
+        let sink =
+            unsafe { Sink::check(output, first, attributes.len(), (width, ATTRIBUTE_TYPES))? };
         if !sink.is_of(own) && !sink.is_of(HOLEFILL_TYPE_F64) {
             return Err(invalid(format!(
                 "the attribute can be read as type {own} or {HOLEFILL_TYPE_F64}"

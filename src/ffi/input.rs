@@ -1,7 +1,7 @@
 //! Rows of numbers that are copied from the caller's memory, which may be aligned or not.
 
 use super::failure::{Failure, invalid, not_null};
-use super::rows::{ATTRIBUTE_TYPES, INDEX_TYPES, POINT_TYPES, Rows};
+use super::rows::{INDEX_TYPES, POINT_TYPES, Rows};
 use super::status::{
     HOLEFILL_STATUS_INDEX_OUT_OF_RANGE, HOLEFILL_STATUS_NOT_FINITE, HOLEFILL_STATUS_OUT_OF_MEMORY,
 };
@@ -12,7 +12,7 @@ use rayon::prelude::*;
 ///
 /// # Safety
 /// `input` is null or points to a `HolefillInput`.
-unsafe fn rows(
+pub(super) unsafe fn rows(
     input: *const HolefillInput,
     width: usize,
     allowed: &[HolefillType],
@@ -207,32 +207,12 @@ macro_rules! plain {
 }
 plain!(i8 u8 i16 u16 i32 u32 f32 f64);
 
-/// Columns of numbers in the caller's rows.
-pub(super) struct Columns {
-    pub(super) rows: Rows,
-}
-
-impl Columns {
-    /// Checks rows of `width` numbers.
-    ///
-    /// # Safety
-    /// As [`read_points`]; the memory must stay as it is while the result lives.
-    pub(super) unsafe fn check(
-        input: *const HolefillInput,
-        width: usize,
-        what: &str,
-    ) -> Result<Self, Failure> {
-        // SAFETY: the caller's promise.
-        let rows = unsafe { rows(input, width, ATTRIBUTE_TYPES, what)? };
-        Ok(Self { rows })
-    }
-
-    /// Column `k`, which must exist, as numbers of the type that the rows have.
-    pub(super) fn column<T: Plain>(&self, k: usize, what: &str) -> Result<Vec<T>, Failure> {
-        let mut values = room(self.rows.count, what)?;
-        // SAFETY: the rows were checked, and any bits are a `T`.
-        let number = |i| unsafe { self.rows.at::<T>(i, k).read_unaligned() };
-        values.extend((0..self.rows.count).map(number));
-        Ok(values)
-    }
+/// Column `k` of rows, which must exist, as numbers of the type that the rows have.
+pub(super) fn copy_column<T: Plain>(rows: &Rows, k: usize, what: &str) -> Result<Vec<T>, Failure> {
+    let mut values = room(rows.count, what)?;
+    debug_assert_eq!(size_of::<T>(), rows.scalar_size);
+    // SAFETY: the rows were checked, and any bits are a `T`.
+    let number = |i| unsafe { rows.at::<T>(i, k).read_unaligned() };
+    values.extend((0..rows.count).map(number));
+    Ok(values)
 }

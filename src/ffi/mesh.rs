@@ -7,9 +7,7 @@ use super::objects::Object;
 use super::output::{hand_out, write_indices, write_points};
 use super::status::{HOLEFILL_STATUS_INDEX_OUT_OF_RANGE, HolefillStatus};
 use super::structs::write_struct;
-use super::types::{
-    HolefillDefects, HolefillError, HolefillInput, HolefillMesh, HolefillMeshInfo, HolefillOutput,
-};
+use super::types::*;
 use crate::fill::session::FillSession;
 use crate::mesh::trimesh::TriMesh;
 

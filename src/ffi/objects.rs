@@ -7,9 +7,7 @@ use super::status::{
     HOLEFILL_STATUS_BUSY, HOLEFILL_STATUS_INVALID_HANDLE, HOLEFILL_STATUS_LIMIT,
     HOLEFILL_STATUS_POISONED,
 };
-use super::types::{
-    HolefillError, HolefillMesh, HolefillParameters, HolefillPlan, HolefillReport, HolefillType,
-};
+use super::types::*;
 use crate::fill::report::FillReport;
 use crate::fill::session::{FillPlan, FillSession, PlannedPatch};
 use crate::options::FillOptions;

@@ -26,9 +26,7 @@ pub(super) unsafe fn read_options(
     options: *const HolefillFillOptions,
 ) -> Result<(FillOptions, Callbacks), Failure> {
     // SAFETY: the caller's promise.
-    let Some(given) = (unsafe { read_struct(options, "options")? }) else {
-        return Ok((FillOptions::default(), Callbacks::none()));
-    };
+    let given = unsafe { read_struct(options, "options")? }.unwrap_or_default();
     let mut read = match given.parameters.id {
         0 => FillOptions::default(),
         _ => given.parameters.with(|options| Ok(lock(options).clone()))?,
@@ -40,29 +38,28 @@ pub(super) unsafe fn read_options(
     read.seed = given.seed;
     read.threads = check_threads(given.threads)?;
     // The ranges of the parameters hold for the fields too.
-    if given.time_budget != 0.0 {
-        read.set("fill.time-budget", &given.time_budget.to_string())?;
-    }
-    if given.density != 0.0 {
-        read.set("refine.density", &given.density.to_string())?;
-    }
-    if given.max_new_vertices != 0 {
-        let most = given.max_new_vertices.to_string();
-        read.set("refine.max-vertices", &most)?;
+    let (seconds, density, most) = (given.time_budget, given.density, given.max_new_vertices);
+    for (is_given, name, value) in [
+        (seconds != 0.0, "fill.time-budget", seconds.to_string()),
+        (density != 0.0, "refine.density", density.to_string()),
+        (most != 0, "refine.max-vertices", most.to_string()),
+    ] {
+        if is_given {
+            read.set(name, &value)?;
+        }
     }
     // SAFETY: the caller's promise is that both can be called during the call.
-    Ok((read, unsafe { Callbacks::new(&given) }))
+    Ok((read, unsafe { Callbacks::new(given) }))
 }
 
-/// How many threads a caller asks for.
-pub(super) fn check_threads(threads: u32) -> Result<usize, Failure> {
-    if threads > MOST_THREADS {
-        return Err(Failure::new(
+fn check_threads(threads: u32) -> Result<usize, Failure> {
+    match threads > MOST_THREADS {
+        true => Err(Failure::new(
             HOLEFILL_STATUS_LIMIT,
             format!("at most {MOST_THREADS} threads, not {threads}"),
-        ));
+        )),
+        false => Ok(threads as usize),
     }
-    Ok(threads as usize)
 }
 
 /// Makes a set of parameters with their defaults.

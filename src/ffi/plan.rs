@@ -1,17 +1,15 @@
 //! Planning patches without changing the mesh, reading them, and applying them.
 
 use super::failure::{Failure, not_null};
-use super::fill::{Wish, change, status_of};
+use super::fill::{change, status_of};
 use super::guard::{guard, guard_free, guard_with};
+use super::loops::Wish;
 use super::objects::{Handle as _, Object, PlanObject, with_mesh_mut};
 use super::options::read_options;
 use super::output::{hand_out, write_indices, write_points};
 use super::status::{HOLEFILL_STATUS_STALE_PLAN, HolefillStatus};
 use super::structs::write_struct;
-use super::types::{
-    HolefillError, HolefillFillOptions, HolefillMesh, HolefillOutput, HolefillPatchInfo,
-    HolefillPlan, HolefillReport, HolefillTarget,
-};
+use super::types::*;
 use crate::error::ErrorKind;
 use crate::fill::session::FillSession;
 

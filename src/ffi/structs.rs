@@ -40,6 +40,7 @@ versioned!(
     HolefillLoopInfo = HOLEFILL_LOOP_INFO_VERSION,
     HolefillSelection = HOLEFILL_SELECTION_VERSION,
     HolefillTarget = HOLEFILL_TARGET_VERSION,
+    HolefillProgress = HOLEFILL_PROGRESS_VERSION,
     HolefillFillOptions = HOLEFILL_FILL_OPTIONS_VERSION,
     HolefillPointOptions = HOLEFILL_POINT_OPTIONS_VERSION,
     HolefillPointSummary = HOLEFILL_POINT_SUMMARY_VERSION,

@@ -142,9 +142,6 @@ fn a_loop_is_the_same_by_id_by_edge_and_by_vertices() {
             chain.reverse();
         }
         let view = rows(&chain);
-        let mut id = u64::MAX;
-        let status = call!(holefill_mesh_find_edge: mesh.0, from, to, &mut id);
-        assert_eq!((status, id), (OK, 1));
         let ids = rows(&[1_i64]);
         let target = match way {
             0 => at_loop(1),
@@ -152,8 +149,8 @@ fn a_loop_is_the_same_by_id_by_edge_and_by_vertices() {
             2 | 3 => at_ids(HOLEFILL_TARGET_VERTICES, &view),
             _ => at_ids(HOLEFILL_TARGET_LOOPS, &ids),
         };
-        let status = fill(mesh.0, &target, &options());
-        assert_eq!(status, OK);
+        assert_eq!(found(mesh.0, &target), Ok(vec![1]));
+        assert_eq!(fill(mesh.0, &target, &options()), OK);
         assert_eq!(loop_info(mesh.0, 1).is_open, 0);
         assert_eq!(loop_info(mesh.0, 0).is_open, 1);
         digests.push(digest(mesh.0));
@@ -177,23 +174,20 @@ fn a_chain_through_two_loops_that_touch_finds_both() {
     second.rotate_left(place_in_second);
     let eight: Vec<u64> = [first, second].concat();
     let view = rows(&eight);
-    let mut ids = [u64::MAX; 2];
-    let mut count = 0;
-    let status = call!(holefill_mesh_find_vertices: mesh.0, &view, ids.as_mut_ptr(), 1, &mut count);
+    let target = at_ids(HOLEFILL_TARGET_VERTICES, &view);
+    let (mut ids, mut count) = ([u64::MAX; 2], 0);
+    let place = ids.as_mut_ptr();
+    let status = call!(holefill_mesh_find_loops: mesh.0, &target, place, 1, &mut count);
     assert_eq!((status, count), (TOO_SMALL, 2));
     assert_eq!(ids[0], u64::MAX);
-    ok!(holefill_mesh_find_vertices: mesh.0, &view, ids.as_mut_ptr(), 2, &mut count);
+    ok!(holefill_mesh_find_loops: mesh.0, &target, place, 2, &mut count);
     assert_eq!(ids, [a, b]);
     // Not all of it is not a loop.
     let view = rows(&eight[..eight.len() - 1]);
-    let mut error = HolefillError::default();
-    // SAFETY: all pointers are null or to living values.
-    let status = unsafe {
-        holefill_mesh_find_vertices(mesh.0, &view, ptr::null_mut(), 0, &mut count, &mut error)
-    };
-    assert_eq!(status, NOT_FOUND);
-    assert!(!message(error).is_empty());
-    holefill_error_free(error);
+    assert_eq!(
+        found(mesh.0, &at_ids(HOLEFILL_TARGET_VERTICES, &view)),
+        Err(NOT_FOUND)
+    );
 }
 
 #[test]
@@ -202,44 +196,43 @@ fn a_plan_is_what_a_fill_would_do_and_changes_nothing() {
     let before = digest(planned.0);
     let plan = plan_loop(planned.0, 0, &options());
     assert_eq!(digest(planned.0), before);
-    let (points, faces) = patch(plan, 0);
+    let (points, faces) = patch(&plan, 0);
     let filled = holed_mesh();
     fill_loop(filled.0, 0, &options());
     let count = info(planned.0);
     assert_eq!(positions(filled.0)[count.vertex_count as usize..], points);
     assert_eq!(triangles(filled.0)[count.triangle_count as usize..], faces);
-    assert_eq!(apply(plan, planned.0), OK);
+    assert_eq!(apply(&plan, planned.0), OK);
     assert_eq!(digest(planned.0), digest(filled.0));
     // A second time the rim is closed.
-    assert_eq!(apply(plan, planned.0), INCOMPLETE);
+    assert_eq!(apply(&plan, planned.0), INCOMPLETE);
     assert_eq!(digest(planned.0), digest(filled.0));
-    holefill_plan_free(plan);
 }
 
 #[test]
 fn plans_of_several_loops_number_their_patches_one_after_the_other() {
     let mesh = holed_mesh();
-    let mut plan = HolefillPlan::default();
-    let mut report = HolefillReport::default();
+    let (mut plan, mut report) = (
+        Owned(HolefillPlan::default()),
+        Owned(HolefillReport::default()),
+    );
     let mut infos = [HolefillPatchInfo::default(); 2];
-    ok!(holefill_mesh_plan: mesh.0, ptr::null(), &options(), &mut plan);
+    ok!(holefill_mesh_plan: mesh.0, ptr::null(), &options(), &mut plan.0);
     for id in 0..2 {
-        call!(holefill_plan_patch: plan, id, &mut infos[id as usize]);
+        call!(holefill_plan_patch: plan.0, id, &mut infos[id as usize]);
     }
-    call!(holefill_plan_report: plan, &mut report);
+    call!(holefill_plan_report: plan.0, &mut report.0);
     assert_eq!(infos[0].first_vertex, info(mesh.0).vertex_count);
     assert_eq!(
         infos[1].first_vertex,
         infos[0].first_vertex + infos[0].vertex_count
     );
-    let hole = hole(report, 1);
+    let hole = hole(&report, 1);
     assert_eq!(
         (hole.status, hole.first_vertex),
         (HOLEFILL_HOLE_FILLED, infos[1].first_vertex)
     );
-    holefill_report_free(report);
-    assert_eq!(apply(plan, mesh.0), OK);
-    holefill_plan_free(plan);
+    assert_eq!(apply(&plan, mesh.0), OK);
     let filled = holed_mesh();
     fill_all(filled.0, &options());
     assert_eq!(digest(filled.0), digest(mesh.0));
@@ -272,7 +265,7 @@ fn a_report_says_what_happened_to_each_hole() {
     rules.keep_largest = 1;
     let (status, report) = report_of(mesh.0, &selected(&rules), &with_method(c"fair-c1"));
     assert_eq!(status, OK);
-    let holes = [hole(report, 0), hole(report, 1)];
+    let holes = [hole(&report, 0), hole(&report, 1)];
     let (kept, filled) = match holes[0].status {
         HOLEFILL_HOLE_KEPT => (holes[0], holes[1]),
         _ => (holes[1], holes[0]),
@@ -288,15 +281,14 @@ fn a_report_says_what_happened_to_each_hole() {
         filled.first_triangle + filled.triangle_count,
         size.triangle_count
     );
-    let summary: HolefillSummary = got!(holefill_report_summary: report);
+    let summary: HolefillSummary = got!(holefill_report_summary: report.0);
     assert_eq!(
         (summary.hole_count, summary.filled, summary.kept),
         (2, 1, 1)
     );
     assert_eq!(summary.new_triangles, filled.triangle_count);
-    let reason = reason(report, kept.loop_id);
+    let reason = reason(&report, kept.loop_id);
     assert!(reason.contains("largest"), "{reason}");
-    holefill_report_free(report);
 }
 
 #[test]
@@ -304,21 +296,19 @@ fn methods_that_were_tried_are_listed_with_reasons() {
     let mesh = holed_mesh();
     let parameters = parameters(c"refine.max-vertices", c"0");
     let options = HolefillFillOptions {
-        parameters,
+        parameters: parameters.0,
         ..with_method(c"fair-c1")
     };
     let (status, report) = report_of(mesh.0, &at_loop(0), &options);
     assert_eq!(status, OK);
-    let hole = hole(report, 0);
+    let hole = hole(&report, 0);
     assert_eq!(static_text(hole.method), Some("flat"));
     assert!(hole.tried_count >= 1);
     let mut method: *const c_char = ptr::null();
     let place = &raw mut method;
-    let reason = told!(holefill_report_tried: report, 0, 0, place);
+    let reason = told!(holefill_report_tried: report.0, 0, 0, place);
     assert_eq!(static_text(method), Some("fair-c1"));
     assert!(!reason.is_empty());
-    holefill_report_free(report);
-    holefill_parameters_free(parameters);
 }
 
 #[test]
@@ -330,17 +320,17 @@ fn a_report_is_also_one_text_with_what_was_predicted() {
         let mesh = mesh_of(&arrays);
         let (status, report) = report_of(mesh.0, &every_loop(), &with_method(method));
         assert_eq!(status, OK);
-        let json = told!(holefill_report_json: report);
+        let json = told!(holefill_report_json: report.0);
         let json: serde_json::Value = serde_json::from_str(&json).unwrap();
         let holes = json["holes"].as_array().unwrap();
         assert_eq!(holes.len() as u64, loop_count(mesh.0));
         for (i, told) in (0..).zip(holes) {
-            let hole = hole(report, i);
+            let hole = hole(&report, i);
             assert_eq!(told["id"], hole.loop_id);
             assert_eq!(told["method"].as_str(), static_text(hole.method));
             assert_eq!(told["new_triangles"], hole.triangle_count);
             let mut found = HolefillPrediction::default();
-            let status = call!(holefill_report_prediction: report, i, &mut found);
+            let status = call!(holefill_report_prediction: report.0, i, &mut found);
             let told = &told["prediction"];
             if told.is_null() {
                 assert_eq!(status, NOT_FOUND);
@@ -358,7 +348,6 @@ fn a_report_is_also_one_text_with_what_was_predicted() {
             assert_eq!(scores.len() as u64, found.score_count);
             has_scores |= scores.contains_key(static_text(found.chosen).unwrap());
         }
-        holefill_report_free(report);
     }
     assert!(has_scores);
 }
@@ -390,11 +379,10 @@ fn fields_of_the_options_and_parameters_do_the_same() {
     let with_name = holed_mesh();
     let parameters = parameters(c"refine.density", c"2");
     let named = HolefillFillOptions {
-        parameters,
+        parameters: parameters.0,
         ..options()
     };
     fill_loop(with_name.0, 0, &named);
-    holefill_parameters_free(parameters);
     assert_eq!(digest(with_field.0), digest(with_name.0));
     let plain = holed_mesh();
     fill_loop(plain.0, 0, &options());

@@ -30,11 +30,10 @@ fn a_callback_that_stops_at_its_nth_call_leaves_the_mesh_as_it_was() {
             let (status, report) = report_of(mesh.0, &every_loop(), &options);
             if left >= 0 {
                 assert_eq!((status, digest(mesh.0)), (OK, finished));
-                holefill_report_free(report);
                 break;
             }
             assert_eq!(status, CANCELLED, "call {n}");
-            assert_eq!((report.id, digest(mesh.0)), (0, before), "call {n}");
+            assert_eq!((report.0.id, digest(mesh.0)), (0, before), "call {n}");
             // And the mesh is as good as before.
             if n == 0 {
                 assert_eq!(fill_all(mesh.0, &slow(threads)), OK);
@@ -74,14 +73,13 @@ fn holes_whose_time_runs_out_stay_as_they_were_and_say_so() {
     let (status, report) = report_of(mesh.0, &at_loop(0), &options);
     assert_eq!(status, INCOMPLETE);
     assert_eq!(digest(mesh.0), before);
-    let hole = hole(report, 0);
+    let hole = hole(&report, 0);
     assert_eq!(
         (hole.status, hole.cause),
         (HOLEFILL_HOLE_FAILED, HOLEFILL_CAUSE_LIMIT)
     );
-    let reason = reason(report, 0);
+    let reason = reason(&report, 0);
     assert!(reason.contains("time budget"), "{reason}");
-    holefill_report_free(report);
     // Enough time is no limit.
     let options = HolefillFillOptions {
         time_budget: 1e6,

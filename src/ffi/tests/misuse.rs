@@ -1,14 +1,13 @@
 //! What is answered to callers who do what they must not: a documented status, and nothing is changed. Wrong pointers,
 //! handles and rows of numbers are in `refusals`.
 
-use super::objects::Handle as _;
 use super::*;
 
 /// What calls with a struct of the caller need.
 struct World {
-    mesh: Owned,
-    report: HolefillReport,
-    plan: HolefillPlan,
+    mesh: Owned<HolefillMesh>,
+    report: Owned<HolefillReport>,
+    plan: Owned<HolefillPlan>,
     points: Vec<[f64; 3]>,
 }
 
@@ -44,6 +43,15 @@ impl World {
         status
     }
 
+    /// Finds the loops that rules choose.
+    fn find(&self, selection: *const HolefillSelection) -> HolefillStatus {
+        let target = HolefillTarget {
+            selection,
+            ..every_loop()
+        };
+        call!(holefill_mesh_find_loops: self.mesh.0, &target, ptr::null_mut(), 0, &mut 0)
+    }
+
     /// Plans the second loop.
     fn plan(
         &self,
@@ -52,15 +60,7 @@ impl World {
     ) -> HolefillStatus {
         let mut plan = HolefillPlan::default();
         let status = call!(holefill_mesh_plan: self.mesh.0, target, options, &mut plan);
-        holefill_plan_free(plan);
         status
-    }
-}
-
-impl Drop for World {
-    fn drop(&mut self) {
-        holefill_report_free(self.report);
-        holefill_plan_free(self.plan);
     }
 }
 
@@ -84,15 +84,15 @@ structs! {
     "defects" 48 true (w, room) call!(holefill_mesh_defects: w.mesh.0, room.cast());
     "attribute info" 24 true (w, room) call!(holefill_mesh_attribute_info: w.mesh.0, 1, 0, room.cast());
     "loop info" 104 true (w, room) call!(holefill_mesh_loop_info: w.mesh.0, 1, room.cast());
-    "selection" 96 false (w, room) call!(holefill_mesh_select: w.mesh.0, room.cast(), ptr::null_mut(), 0, &mut 0);
+    "selection" 96 false (w, room) w.find(room.cast());
     "target" 56 false (w, room) w.plan(room.cast(), ptr::null());
     "fill options" 96 false (w, room) w.plan(&at_loop(1), room.cast());
     "point options" 48 false (w, room) w.points(room.cast(), ptr::null_mut());
     "point summary" 80 true (w, room) w.points(ptr::null(), room.cast());
-    "patch info" 32 true (w, room) call!(holefill_plan_patch: w.plan, 1, room.cast());
-    "hole" 128 true (w, room) call!(holefill_report_hole: w.report, 0, room.cast());
-    "prediction" 56 true (w, room) call!(holefill_report_prediction: w.report, 0, room.cast());
-    "summary" 80 true (w, room) call!(holefill_report_summary: w.report, room.cast());
+    "patch info" 32 true (w, room) call!(holefill_plan_patch: w.plan.0, 1, room.cast());
+    "hole" 128 true (w, room) call!(holefill_report_hole: w.report.0, 0, room.cast());
+    "prediction" 56 true (w, room) call!(holefill_report_prediction: w.report.0, 0, room.cast());
+    "summary" 80 true (w, room) call!(holefill_report_summary: w.report.0, room.cast());
 }
 
 #[test]
@@ -198,10 +198,11 @@ fn what_is_not_there_is_not_found() {
         (reserved, INVALID_STRUCT),
     ] {
         let (status, report) = report_of(mesh.0, &target, &options());
-        assert_eq!((status, report.id), (expected, 0), "{target:?}");
+        assert_eq!((status, report.0.id), (expected, 0), "{target:?}");
         let mut plan = HolefillPlan::default();
         let status = call!(holefill_mesh_plan: mesh.0, &target, ptr::null(), &mut plan);
         assert_eq!((status, plan.id), (expected, 0), "{target:?}");
+        assert_eq!(found(mesh.0, &target), Err(expected), "{target:?}");
     }
     let mut numbers = [[0.0_f64; 3]; 2];
     let output = place(&mut numbers);
@@ -213,7 +214,14 @@ fn what_is_not_there_is_not_found() {
             assert_eq!(status, NOT_FOUND);
         }
         let mut error = HolefillError::default();
-        let status = holefill_mesh_find_edge(mesh.0, to, from, &mut id, &mut error);
+        let status = holefill_mesh_find_loops(
+            mesh.0,
+            &at_edge([to, from]),
+            ptr::null_mut(),
+            0,
+            &mut id,
+            &mut error,
+        );
         assert_eq!(status, NOT_FOUND);
         assert!(message(error).contains("runs from"));
         holefill_error_free(error);
@@ -246,22 +254,20 @@ fn plans_that_no_longer_fit_are_refused() {
     let mesh = holed_mesh();
     let other = holed_mesh();
     let plan = plan_loop(mesh.0, 0, &options());
-    assert_eq!(apply(plan, other.0), STALE_PLAN);
+    assert_eq!(apply(&plan, other.0), STALE_PLAN);
     // A fill elsewhere does not matter, nor does its undo.
     fill_loop(mesh.0, 1, &options());
     let late = plan_loop(mesh.0, 0, &options());
     undo(mesh.0);
     let before = digest(mesh.0);
-    assert_eq!(apply(late, mesh.0), STALE_PLAN);
+    assert_eq!(apply(&late, mesh.0), STALE_PLAN);
     assert_eq!(digest(mesh.0), before);
-    assert_eq!(apply(plan, mesh.0), OK);
+    assert_eq!(apply(&plan, mesh.0), OK);
     undo(mesh.0);
     let labels = vec![0_u8; info(mesh.0).vertex_count as usize];
     let values = rows(&labels);
     call!(holefill_mesh_add_attribute: mesh.0, 1, c"label".as_ptr(), 1, &values);
-    assert_eq!(apply(plan, mesh.0), STALE_PLAN);
-    holefill_plan_free(plan);
-    holefill_plan_free(late);
+    assert_eq!(apply(&plan, mesh.0), STALE_PLAN);
 }
 
 #[test]

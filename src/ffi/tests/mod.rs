@@ -43,6 +43,7 @@ mod refusals;
 mod sessions;
 mod threads;
 
+use super::objects::Handle;
 use super::status::{
     HOLEFILL_STATUS_BUFFER_TOO_SMALL as TOO_SMALL, HOLEFILL_STATUS_BUSY as BUSY,
     HOLEFILL_STATUS_CANCELLED as CANCELLED, HOLEFILL_STATUS_INCOMPLETE as INCOMPLETE,
@@ -61,12 +62,13 @@ use crate::fixtures::{self, Arrays};
 use std::ffi::{CStr, CString, c_char, c_void};
 use std::ptr;
 
-/// A mesh of C, freed at the end.
-struct Owned(HolefillMesh);
+/// A handle that is freed at the end.
+struct Owned<H: Handle>(H);
 
-impl Drop for Owned {
+impl<H: Handle> Drop for Owned<H> {
     fn drop(&mut self) {
-        holefill_mesh_free(self.0);
+        // The handle may have been freed before.
+        let _ = objects::free(self.0);
     }
 }
 
@@ -130,7 +132,7 @@ fn nothing() -> *mut HolefillError {
     ptr::null_mut()
 }
 
-fn mesh_of(arrays: &Arrays) -> Owned {
+fn mesh_of(arrays: &Arrays) -> Owned<HolefillMesh> {
     let mut mesh = HolefillMesh::default();
     let positions = rows(&arrays.positions);
     let triangles = rows(&arrays.triangles);
@@ -143,7 +145,7 @@ fn holed() -> Arrays {
     fixtures::sphere(14).cut(|c| c[2] > 0.75 || c[2] < -0.8)
 }
 
-fn holed_mesh() -> Owned {
+fn holed_mesh() -> Owned<HolefillMesh> {
     mesh_of(&holed())
 }
 
@@ -310,6 +312,16 @@ fn every_loop() -> HolefillTarget {
     target(HOLEFILL_TARGET_SELECTED)
 }
 
+/// The loops that a target names.
+fn found(mesh: HolefillMesh, target: &HolefillTarget) -> Result<Vec<u64>, HolefillStatus> {
+    let (mut ids, mut count) = ([u64::MAX; 8], 0);
+    let status = call!(holefill_mesh_find_loops: mesh, target, ids.as_mut_ptr(), 8, &mut count);
+    match status {
+        OK => Ok(ids[..count as usize].to_vec()),
+        _ => Err(status),
+    }
+}
+
 fn fill(
     mesh: HolefillMesh,
     target: &HolefillTarget,
@@ -331,57 +343,57 @@ fn report_of(
     mesh: HolefillMesh,
     target: &HolefillTarget,
     options: &HolefillFillOptions,
-) -> (HolefillStatus, HolefillReport) {
+) -> (HolefillStatus, Owned<HolefillReport>) {
     let mut report = HolefillReport::default();
     let status = call!(holefill_mesh_fill: mesh, target, options, &mut report);
-    (status, report)
+    (status, Owned(report))
 }
 
-fn hole(report: HolefillReport, index: u64) -> HolefillHole {
-    let hole: HolefillHole = got!(holefill_report_hole: report, index);
+fn hole(report: &Owned<HolefillReport>, index: u64) -> HolefillHole {
+    let hole: HolefillHole = got!(holefill_report_hole: report.0, index);
     hole
 }
 
-fn reason(report: HolefillReport, index: u64) -> String {
-    told!(holefill_report_reason: report, index)
+fn reason(report: &Owned<HolefillReport>, index: u64) -> String {
+    told!(holefill_report_reason: report.0, index)
 }
 
 /// Makes a set of parameters with one of them set.
-fn parameters(name: &CStr, value: &CStr) -> HolefillParameters {
+fn parameters(name: &CStr, value: &CStr) -> Owned<HolefillParameters> {
     let mut made = HolefillParameters::default();
     call!(holefill_parameters_new: &mut made);
     ok!(holefill_parameters_set: made, name.as_ptr(), value.as_ptr());
-    made
+    Owned(made)
 }
 
 fn undo(mesh: HolefillMesh) -> HolefillStatus {
     call!(holefill_mesh_undo: mesh)
 }
 
-fn plan_loop(mesh: HolefillMesh, id: u64, options: &HolefillFillOptions) -> HolefillPlan {
+fn plan_loop(mesh: HolefillMesh, id: u64, options: &HolefillFillOptions) -> Owned<HolefillPlan> {
     let mut plan = HolefillPlan::default();
     ok!(holefill_mesh_plan: mesh, &at_loop(id), options, &mut plan);
-    plan
+    Owned(plan)
 }
 
-fn apply(plan: HolefillPlan, mesh: HolefillMesh) -> HolefillStatus {
-    call!(holefill_plan_apply: plan, mesh, ptr::null(), ptr::null_mut())
+fn apply(plan: &Owned<HolefillPlan>, mesh: HolefillMesh) -> HolefillStatus {
+    call!(holefill_plan_apply: plan.0, mesh, ptr::null(), ptr::null_mut())
 }
 
 /// New vertices and triangles of the patch for a loop.
-fn patch(plan: HolefillPlan, id: u64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
-    let info: HolefillPatchInfo = got!(holefill_plan_patch: plan, id);
+fn patch(plan: &Owned<HolefillPlan>, id: u64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+    let info: HolefillPatchInfo = got!(holefill_plan_patch: plan.0, id);
     let (vertices, triangles) = (info.vertex_count, info.triangle_count);
     (
         read(
             vertices,
             [0.0; 3],
-            |to| call!(holefill_plan_read_positions: plan, id, 0, to),
+            |to| call!(holefill_plan_read_positions: plan.0, id, 0, to),
         ),
         read(
             triangles,
             [0; 3],
-            |to| call!(holefill_plan_read_triangles: plan, id, 0, to),
+            |to| call!(holefill_plan_read_triangles: plan.0, id, 0, to),
         ),
     )
 }

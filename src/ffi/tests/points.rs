@@ -34,7 +34,12 @@ fn or_null<T>(value: &Option<T>) -> *const T {
 fn make(
     points: &HolefillInput,
     given: &Given,
-) -> (HolefillStatus, Owned, HolefillPointSummary, String) {
+) -> (
+    HolefillStatus,
+    Owned<HolefillMesh>,
+    HolefillPointSummary,
+    String,
+) {
     let mut mesh = HolefillMesh { id: 77 };
     let mut summary = HolefillPointSummary::default();
     let mut error = HolefillError::default();

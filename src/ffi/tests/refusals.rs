@@ -4,7 +4,6 @@
 //! The header says which functions there are, and which of their arguments are pointers and handles: none can be left out
 //! here.
 
-use super::objects::Handle as _;
 use super::*;
 
 const HEADER: &str = include_str!("../../../include/holefill.h");
@@ -55,14 +54,13 @@ fn declared() -> Vec<(String, Vec<String>)> {
 
 /// Everything that calls need, new for each of them.
 struct World {
-    mesh: Owned,
-    plan: HolefillPlan,
-    report: HolefillReport,
-    predicted: HolefillReport,
-    parameters: HolefillParameters,
+    mesh: Owned<HolefillMesh>,
+    plan: Owned<HolefillPlan>,
+    report: Owned<HolefillReport>,
+    predicted: Owned<HolefillReport>,
+    parameters: Owned<HolefillParameters>,
     error: HolefillError,
     arrays: Arrays,
-    chain: Vec<u64>,
     heat: Vec<f32>,
     options: HolefillFillOptions,
     target: HolefillTarget,
@@ -86,14 +84,12 @@ impl World {
         ok!(holefill_mesh_add_attribute: mesh.0, 1, c"heat".as_ptr(), 1, &rows(&heat));
         let (_, report) = report_of(mesh.0, &at_loop(0), &small);
         undo(mesh.0);
-        let (mut parameters, mut error) = Default::default();
-        ok!(holefill_parameters_new: &mut parameters);
+        let mut error = HolefillError::default();
         let (far, none, no) = (at_loop(99), ptr::null(), ptr::null_mut());
         // SAFETY: all pointers are null or to living values.
         unsafe { holefill_mesh_fill(mesh.0, &far, none, no, &mut error) };
         Self {
             plan: plan_loop(mesh.0, 0, &options()),
-            chain: loop_vertices(mesh.0, 0),
             options: options(),
             target: at_loop(0),
             out: [[77; 8]; 2],
@@ -102,7 +98,7 @@ impl World {
             mesh,
             report,
             predicted: report_of(predicted.0, &at_loop(0), &with_method(c"auto")).1,
-            parameters,
+            parameters: parameters(c"refine.density", c"1"),
             error,
             arrays,
             heat,
@@ -119,9 +115,9 @@ impl World {
     fn living(&self) -> [(u8, u64); 5] {
         [
             (HolefillMesh::KIND, self.mesh.0.id),
-            (HolefillPlan::KIND, self.plan.id),
-            (HolefillReport::KIND, self.report.id),
-            (HolefillParameters::KIND, self.parameters.id),
+            (HolefillPlan::KIND, self.plan.0.id),
+            (HolefillReport::KIND, self.report.0.id),
+            (HolefillParameters::KIND, self.parameters.0.id),
             (HolefillError::KIND, self.error.id),
         ]
     }
@@ -200,13 +196,11 @@ fn free(kind: u8, id: u64) -> HolefillStatus {
 
 impl Drop for World {
     fn drop(&mut self) {
-        holefill_report_free(self.predicted);
-        for (kind, id) in self.living().into_iter().skip(1) {
-            free(kind, id);
-            // Whatever a call has made.
+        holefill_error_free(self.error);
+        // Whatever a call has made.
+        for (_, kind) in HANDLES {
             free(kind, self.out[0][0]);
         }
-        free(HolefillMesh::KIND, self.out[0][0]);
     }
 }
 
@@ -332,13 +326,13 @@ macro_rules! all_refuse {
         refuses!($w: $function, {HolefillMesh $w.mesh.0} $(, $argument)*, !)
     };
     (@ $w:ident plan $function:ident $($argument:tt)*) => {
-        refuses!($w: $function, {HolefillPlan $w.plan} $(, $argument)*, !)
+        refuses!($w: $function, {HolefillPlan $w.plan.0} $(, $argument)*, !)
     };
     (@ $w:ident report $function:ident $($argument:tt)*) => {
-        refuses!($w: $function, {HolefillReport $w.report} $(, $argument)*, !)
+        refuses!($w: $function, {HolefillReport $w.report.0} $(, $argument)*, !)
     };
     (@ $w:ident parameters $function:ident $($argument:tt)*) => {
-        refuses!($w: $function, {HolefillParameters $w.parameters} $(, $argument)*, !)
+        refuses!($w: $function, {HolefillParameters $w.parameters.0} $(, $argument)*, !)
     };
     (@ $w:ident new $function:ident $($argument:tt)*) => {
         refuses!($w: $function $(, $argument)*, !)
@@ -374,11 +368,7 @@ fn wrong_pointers_and_handles_are_refused_by_every_function() {
         mesh holefill_mesh_loop_count(["count", w.out(0)]);
         mesh holefill_mesh_loop_info((0), ["info", w.blank()]);
         mesh holefill_mesh_read_loop((0), (0), ["output", &w.row::<u32>()]);
-        mesh holefill_mesh_find_edge((w.chain[0]), (w.chain[1]), ["loop_id", w.out(0)]);
-        mesh holefill_mesh_find_vertices(["vertices", &rows(&w.chain)], ["ids", w.out(1)], (8),
-            ["count", w.out(0)]);
-        mesh holefill_mesh_select(["selection", &Default::default(), OK], ["ids", w.out(1)], (8),
-            ["count", w.out(0)]);
+        mesh holefill_mesh_find_loops(["target", &w.target, OK], ["ids", w.out(1)], (8), ["count", w.out(0)]);
         new holefill_parameters_new(["parameters", w.out(0)]);
         parameters holefill_parameters_set(["name", density], ["value", c"0.5".as_ptr()]);
         parameters holefill_parameters_get(["name", density], ["buffer", w.text()], (4096), ["length", w.out(0)]);
@@ -395,7 +385,7 @@ fn wrong_pointers_and_handles_are_refused_by_every_function() {
         report holefill_report_tried((0), (0), ["method", w.out(1)], ["buffer", w.text()], (4096),
             ["length", w.out(0)]);
         report holefill_report_json(["buffer", w.text()], (4096), ["length", w.out(0)]);
-        new holefill_report_prediction({HolefillReport w.predicted}, (0), ["prediction", w.blank()]);
+        new holefill_report_prediction({HolefillReport w.predicted.0}, (0), ["prediction", w.blank()]);
         mesh holefill_mesh_fill(["target", &w.target, OK], ["options", &w.options, OK],
             ["report", w.out(0), OK]);
         mesh holefill_mesh_plan(["target", &w.target, OK], ["options", &w.options, OK],
@@ -495,7 +485,7 @@ places! {
     "chain" 4 INDEX_TYPES |n| n - 1, NOT_FOUND, (a, s) {
         let mesh = mesh_of(a);
         let chain: Vec<u32> = loop_vertices(mesh.0, 0).iter().map(|&v| v as u32).collect();
-        call!(holefill_mesh_find_vertices: mesh.0, &s(rows(&chain)), ptr::null_mut(), 0, &mut 0)
+        found(mesh.0, &at_ids(HOLEFILL_TARGET_VERTICES, &s(rows(&chain)))).err().unwrap_or(OK)
     };
     "output" 24 POINT_TYPES |n| n + 1, NOT_FOUND, (a, s) {
         let mut room = a.positions.clone();

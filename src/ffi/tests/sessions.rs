@@ -23,7 +23,7 @@ fn circle() -> Vec<[f64; 3]> {
         .collect()
 }
 
-fn polyline(normals: Option<&[[f64; 3]]>) -> Owned {
+fn polyline(normals: Option<&[[f64; 3]]>) -> Owned<HolefillMesh> {
     let points = circle();
     let points = rows(&points);
     let normals = normals.map(|n| rows(n));
@@ -87,28 +87,24 @@ fn a_polyline_is_used_as_a_mesh_is() {
         (0..EDGES as u64).collect::<Vec<_>>()
     );
     let labels = vec![3_u8; EDGES];
-    let mut id = 9;
     let values = rows(&labels);
     let empty = rows(&labels[..0]);
     let name = c"label".as_ptr();
     ok!(holefill_mesh_add_attribute: mesh.0, 1, name, 1, &values);
     ok!(holefill_mesh_add_attribute: mesh.0, 2, name, 1, &empty);
-    let status = call!(holefill_mesh_find_edge: mesh.0, 47, 0, &mut id);
-    assert_eq!((status, id), (OK, 0));
-    let status = call!(holefill_mesh_find_edge: mesh.0, 3, 5, &mut id);
-    assert_eq!(status, NOT_FOUND);
+    assert_eq!(found(mesh.0, &at_edge([47, 0])), Ok(vec![0]));
+    assert_eq!(found(mesh.0, &at_edge([3, 5])), Err(NOT_FOUND));
     let methods = [c"flat", c"membrane", c"fair-c1", c"fair-c2", c"auto"];
     for method in methods {
         let plan = plan_loop(mesh.0, 0, &with_method(method));
-        let (points, faces) = patch(plan, 0);
+        let (points, faces) = patch(&plan, 0);
         assert_eq!(faces.len(), EDGES - 2 + 2 * points.len(), "a disk");
-        assert_eq!(apply(plan, mesh.0), OK);
+        assert_eq!(apply(&plan, mesh.0), OK);
         assert_eq!(triangles(mesh.0), faces);
         assert_eq!(loop_info(mesh.0, 0).is_open, 0);
         assert_eq!(fill_loop(mesh.0, 0, &options()), INVALID);
-        assert_eq!(apply(plan, mesh.0), STALE_PLAN);
+        assert_eq!(apply(&plan, mesh.0), STALE_PLAN);
         assert_eq!(undo(mesh.0), OK);
-        holefill_plan_free(plan);
     }
     assert_ne!(digest(mesh.0), before, "there are attributes now");
 }
@@ -178,7 +174,7 @@ fn holes_filled_one_by_one_are_checked_against_each_other() {
         .map(|id| planned.plan(Target::Loops(&[id]), &options, None).unwrap())
         .collect();
     for plan in &plans {
-        planned.apply(plan, None).unwrap();
+        planned.apply(&plan, None).unwrap();
     }
     assert_eq!(planned.mesh().triangles(), at_once.mesh().triangles());
 }

@@ -50,20 +50,13 @@ fn random_call(
             }
             7..9 => (fill_loop(mesh, id, &options), FILLS),
             9 => (undo(mesh), UNDOES),
-            10 => {
-                let mut plan = HolefillPlan::default();
-                let status = holefill_mesh_plan(mesh, &at_loop(id), &options, &mut plan, nothing());
-                if status == OK {
-                    let status = apply(plan, mesh);
-                    holefill_plan_free(plan);
-                    return (status, APPLIES);
+            applied => {
+                let mut plan = Owned(HolefillPlan::default());
+                let place = &mut plan.0;
+                let status = holefill_mesh_plan(mesh, &at_loop(id), &options, place, nothing());
+                if status == OK && applied == 10 {
+                    return (apply(&plan, mesh), APPLIES);
                 }
-                (status, FILLS)
-            }
-            _ => {
-                let mut plan = HolefillPlan::default();
-                let status = holefill_mesh_plan(mesh, &at_loop(id), &options, &mut plan, nothing());
-                holefill_plan_free(plan);
                 (status, FILLS)
             }
         }
@@ -80,7 +73,7 @@ fn settle(mesh: HolefillMesh) -> u64 {
 #[test]
 fn eight_threads_on_shared_and_own_meshes_leave_what_one_thread_leaves() {
     let arrays = small();
-    let keep: Vec<Owned> = (0..3).map(|_| mesh_of(&arrays)).collect();
+    let keep: Vec<Owned<HolefillMesh>> = (0..3).map(|_| mesh_of(&arrays)).collect();
     let ids: Vec<HolefillMesh> = keep.iter().map(|m| m.0).collect();
     let run = |seed: usize| {
         let own = mesh_of(&arrays);
@@ -189,9 +182,8 @@ fn callbacks_may_call_the_library() {
         progress_data: (&raw mut seen).cast(),
         ..options()
     };
-    let plan = plan_loop(mesh.0, 0, &options);
+    let _plan = plan_loop(mesh.0, 0, &options);
     assert_eq!((seen.read, seen.written, seen.elsewhere), (OK, BUSY, OK));
-    holefill_plan_free(plan);
     assert_eq!(fill_loop(mesh.0, 0, &options), OK);
     assert_eq!((seen.read, seen.written), (BUSY, BUSY));
 }

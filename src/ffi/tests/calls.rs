@@ -28,68 +28,50 @@ fn a_fill_through_c_gives_the_bits_of_a_fill_through_rust() {
     }
 }
 
+/// Rows from an odd address on, with seven bytes between them, and what C is told of them.
+fn apart<T: Numbers + bytemuck::Pod>(given: &[[T; 3]]) -> (Vec<u8>, HolefillInput) {
+    let mut bytes = vec![0xAA_u8];
+    for row in given {
+        bytes.extend_from_slice(bytemuck::cast_slice(row));
+        bytes.extend_from_slice(&[0xAA; 7]);
+    }
+    let view = HolefillInput {
+        data: bytes[1..].as_ptr().cast(),
+        stride: size_of::<[T; 3]>() as u64 + 7,
+        ..rows(given)
+    };
+    (bytes, view)
+}
+
+/// Triangles with indices of another type.
+fn converted<T: TryFrom<u32>>(triangles: &[[u32; 3]]) -> Vec<[T; 3]> {
+    let index = |v| T::try_from(v).unwrap_or_else(|_| panic!("{v} is too large"));
+    triangles.iter().map(|t| t.map(index)).collect()
+}
+
 #[test]
 fn arrays_of_every_type_and_stride_make_the_same_mesh() {
     let arrays = holed();
     let expected = mesh_of(&arrays);
-    // Seven bytes between the rows, and everything at an odd address.
-    let spread = |size: usize, rows: Vec<Vec<u8>>| {
-        let mut bytes = vec![0xAA_u8];
-        for row in &rows {
-            assert_eq!(row.len(), size);
-            bytes.extend_from_slice(row);
-            bytes.extend_from_slice(&[0xAA; 7]);
-        }
-        bytes
-    };
-    let doubles = arrays.positions.iter();
-    let doubles = doubles.map(|p| p.iter().flat_map(|c| c.to_ne_bytes()).collect());
-    let doubles = spread(24, doubles.collect());
-    let wide = arrays.triangles.iter();
-    let wide = wide.map(|t| t.iter().flat_map(|&v| u64::from(v).to_ne_bytes()).collect());
-    let wide = spread(24, wide.collect());
-    let narrow = arrays.triangles.iter();
-    let narrow = narrow.map(|t| t.iter().flat_map(|v| v.to_ne_bytes()).collect());
-    let narrow = spread(12, narrow.collect());
-    let view = |bytes: &[u8], count: usize, stride: u64, scalar_type| HolefillInput {
-        data: bytes[1..].as_ptr().cast(),
-        count: count as u64,
-        stride,
-        scalar_type,
-        reserved: 0,
-    };
-    let points = view(&doubles, arrays.positions.len(), 31, HOLEFILL_TYPE_F64);
-    let count = arrays.triangles.len();
-    for faces in [
-        view(&wide, count, 31, HOLEFILL_TYPE_U64),
-        view(&wide, count, 31, HOLEFILL_TYPE_I64),
-        view(&narrow, count, 19, HOLEFILL_TYPE_U32),
-        view(&narrow, count, 19, HOLEFILL_TYPE_I32),
-        HolefillInput {
-            scalar_type: HOLEFILL_TYPE_I32,
-            ..rows(&arrays.triangles)
-        },
+    let signed = converted::<i32>(&arrays.triangles);
+    let (_points, points) = apart(&arrays.positions);
+    for (_faces, faces) in [
+        apart(&converted::<u64>(&arrays.triangles)),
+        apart(&converted::<i64>(&arrays.triangles)),
+        apart(&arrays.triangles),
+        apart(&signed),
+        (Vec::new(), rows(&signed)),
     ] {
-        let mut mesh = HolefillMesh::default();
-        ok!(holefill_mesh_from_arrays: &points, &faces, &mut mesh);
-        let mesh = Owned(mesh);
+        let mut mesh = Owned(HolefillMesh::default());
+        ok!(holefill_mesh_from_arrays: &points, &faces, &mut mesh.0);
         assert_eq!(digest(mesh.0), digest(expected.0));
     }
     // Single precision is widened exactly.
-    let singles: Vec<[f32; 3]> = arrays
-        .positions
-        .iter()
-        .map(|p| p.map(|c| c as f32))
-        .collect();
-    let mut mesh = HolefillMesh::default();
-    // SAFETY: the views describe living memory.
-    let status = unsafe {
-        let points = rows(&singles);
-        let faces = rows(&arrays.triangles);
-        holefill_mesh_from_arrays(&points, &faces, &mut mesh, nothing())
-    };
-    assert_eq!(status, OK);
-    let mesh = Owned(mesh);
+    let singles = arrays.positions.iter().map(|p| p.map(|c| c as f32));
+    let singles: Vec<[f32; 3]> = singles.collect();
+    let mut mesh = Owned(HolefillMesh::default());
+    let (points, faces) = (rows(&singles), rows(&arrays.triangles));
+    ok!(holefill_mesh_from_arrays: &points, &faces, &mut mesh.0);
     let widened: Vec<[f64; 3]> = singles.iter().map(|p| p.map(f64::from)).collect();
     assert_eq!(positions(mesh.0), widened);
 }
@@ -98,36 +80,25 @@ fn arrays_of_every_type_and_stride_make_the_same_mesh() {
 fn outputs_go_where_they_should_and_nowhere_else() {
     let arrays = holed();
     let mesh = mesh_of(&arrays);
-    // Rows of 24 bytes every 29 bytes from an odd address on.
-    let mut bytes = vec![0xAA_u8; 1 + 29 * 5];
+    let (expected, view) = apart(&arrays.positions[2..6]);
+    let mut bytes = vec![0xAA_u8; expected.len()];
     let output = HolefillOutput {
         data: bytes[1..].as_mut_ptr().cast(),
-        count: 4,
-        stride: 29,
-        scalar_type: HOLEFILL_TYPE_F64,
+        count: view.count,
+        stride: view.stride,
+        scalar_type: view.scalar_type,
         reserved: 0,
     };
     ok!(holefill_mesh_read_positions: mesh.0, 2, &output);
-    let mut expected = vec![0xAA_u8; 1 + 29 * 5];
-    for (i, p) in arrays.positions[2..6].iter().enumerate() {
-        let row: Vec<u8> = p.iter().flat_map(|c| c.to_ne_bytes()).collect();
-        expected[1 + 29 * i..][..24].copy_from_slice(&row);
-    }
     assert_eq!(bytes, expected);
-    let mut wide = [[0_u64; 3]; 2];
-    let mut single = [[0_f32; 3]; 2];
-    let (mut signed, mut wide_signed) = ([[0_i32; 3]; 2], [[0_i64; 3]; 2]);
-    let (to_wide, to_single) = (place(&mut wide), place(&mut single));
-    let to_signed = [place(&mut signed), place(&mut wide_signed)];
-    for output in &to_signed {
-        call!(holefill_mesh_read_triangles: mesh.0, 1, output);
-    }
-    call!(holefill_mesh_read_triangles: mesh.0, 1, &to_wide);
-    call!(holefill_mesh_read_positions: mesh.0, 1, &to_single);
-    assert_eq!(wide[0], arrays.triangles[1].map(u64::from));
-    assert_eq!(wide_signed[0], arrays.triangles[1].map(i64::from));
-    assert_eq!(signed[1], arrays.triangles[2].map(u32::cast_signed));
-    assert_eq!(single[1], arrays.positions[2].map(|c| c as f32));
+    let next = &arrays.triangles[1..3];
+    let faces = |to: &HolefillOutput| call!(holefill_mesh_read_triangles: mesh.0, 1, to);
+    assert_eq!(read(2, [0_u64; 3], faces), converted::<u64>(next));
+    assert_eq!(read(2, [0_i64; 3], faces), converted::<i64>(next));
+    assert_eq!(read(2, [0_i32; 3], faces), converted::<i32>(next));
+    let points = |to: &HolefillOutput| call!(holefill_mesh_read_positions: mesh.0, 1, to);
+    let expected = [1, 2].map(|i| arrays.positions[i].map(|c| c as f32));
+    assert_eq!(read(2, [0_f32; 3], points), expected);
 }
 
 #[test]

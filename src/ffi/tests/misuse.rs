@@ -32,15 +32,9 @@ impl World {
         summary: *mut HolefillPointSummary,
     ) -> HolefillStatus {
         let points = rows(&self.points);
-        let (none, mut mesh) = (ptr::null(), HolefillMesh::default());
-        // SAFETY: all pointers are null, to living values or the caller's.
-        unsafe {
-            let mesh = &mut mesh;
-            holefill_mesh_from_points(&points, none, none, options, mesh, summary, nothing())
-        };
-        let status = i32::from(mesh.id == 0) * INVALID_STRUCT;
-        holefill_mesh_free(mesh);
-        status
+        let (none, mut mesh) = (ptr::null(), Owned(HolefillMesh::default()));
+        let place = &mut mesh.0;
+        call!(holefill_mesh_from_points: &points, none, none, options, place, summary)
     }
 
     /// Finds the loops that rules choose.
@@ -58,9 +52,8 @@ impl World {
         target: *const HolefillTarget,
         options: *const HolefillFillOptions,
     ) -> HolefillStatus {
-        let mut plan = HolefillPlan::default();
-        let status = call!(holefill_mesh_plan: self.mesh.0, target, options, &mut plan);
-        status
+        let mut plan = Owned(HolefillPlan::default());
+        call!(holefill_mesh_plan: self.mesh.0, target, options, &mut plan.0)
     }
 }
 

@@ -30,40 +30,35 @@ fn or_null<T>(value: &Option<T>) -> *const T {
     value.as_ref().map_or(ptr::null(), ptr::from_ref)
 }
 
-/// The status, the mesh, what became of the points, and the message of a failure.
+/// The status, the mesh, and what became of the points.
 fn make(
     points: &HolefillInput,
     given: &Given,
-) -> (
-    HolefillStatus,
-    Owned<HolefillMesh>,
-    HolefillPointSummary,
-    String,
-) {
-    let mut mesh = HolefillMesh { id: 77 };
-    let mut summary = HolefillPointSummary::default();
-    let mut error = HolefillError::default();
+) -> (HolefillStatus, Owned<HolefillMesh>, HolefillPointSummary) {
+    let mut mesh = Owned(HolefillMesh::default());
+    let (mut summary, mut error) = Default::default();
     // SAFETY: all pointers are null or to living values.
     let status = unsafe {
+        let normals = or_null(&given.normals);
+        let colors = or_null(&given.colors);
+        let (options, made) = (or_null(&given.options), &mut mesh.0);
         holefill_mesh_from_points(
             points,
-            or_null(&given.normals),
-            or_null(&given.colors),
-            or_null(&given.options),
-            &mut mesh,
+            normals,
+            colors,
+            options,
+            made,
             &mut summary,
             &mut error,
         )
     };
-    if status == OK {
-        return (status, Owned(mesh), summary, String::new());
+    if status != OK {
+        let written = (mesh.0.id, summary.triangle_count);
+        assert_eq!(written, (0, 0), "outputs are written only on success");
+        assert!(!message(error).is_empty());
     }
-    assert_eq!(mesh.id, 77, "an output is written only on success");
-    assert_eq!(summary.triangle_count, 0);
-    let text = message(error);
     holefill_error_free(error);
-    assert!(!text.is_empty());
-    (status, Owned(HolefillMesh::default()), summary, text)
+    (status, mesh, summary)
 }
 
 fn point_options() -> HolefillPointOptions {
@@ -73,8 +68,11 @@ fn point_options() -> HolefillPointOptions {
     }
 }
 
-fn refused(points: &HolefillInput, given: &Given) -> HolefillStatus {
-    make(points, given).0
+fn with_options(options: HolefillPointOptions) -> Given {
+    Given {
+        options: Some(options),
+        ..Given::default()
+    }
 }
 
 #[test]
@@ -92,11 +90,7 @@ fn a_mesh_from_points_is_that_of_the_rust_call() {
             threads,
             ..point_options()
         };
-        let given = Given {
-            options: Some(options),
-            ..Given::default()
-        };
-        let (status, mesh, summary, _) = make(&view, &given);
+        let (status, mesh, summary) = make(&view, &with_options(options));
         assert_eq!(status, OK);
         assert_eq!(positions(mesh.0), points);
         assert_eq!(triangles(mesh.0), expected.triangles());
@@ -146,7 +140,7 @@ fn points_may_stand_anywhere_and_duplicates_stay_as_vertices() {
         colors: Some(view(37, HOLEFILL_TYPE_U8)),
         options: None,
     };
-    let (status, mesh, summary, _) = make(&view(1, HOLEFILL_TYPE_F32), &given);
+    let (status, mesh, summary) = make(&view(1, HOLEFILL_TYPE_F32), &given);
     assert_eq!(status, OK);
     assert_eq!((summary.duplicates, summary.estimated_normals), (1, 1));
     let (positions, triangles) = (positions(mesh.0), triangles(mesh.0));
@@ -177,8 +171,7 @@ fn points_that_make_no_mesh_are_refused() {
     let line: Vec<[f64; 3]> = (0..30).map(|i| [f64::from(i), 0.0, 0.0]).collect();
     let same = vec![[1.0, 2.0, 3.0]; 30];
     for few in [&[][..], &good[..1], &good[..3], &line, &same] {
-        let (status, .., text) = make(&rows(few), &Given::default());
-        assert_eq!(status, INVALID, "{text}");
+        assert_eq!(make(&rows(few), &Given::default()).0, INVALID);
     }
     // Colors are data that is carried on, whatever it is.
     let mut points = good.clone();
@@ -187,8 +180,7 @@ fn points_that_make_no_mesh_are_refused() {
         colors: Some(rows(&points)),
         ..Given::default()
     };
-    let status = refused(&rows(&good), &given);
-    assert_eq!(status, OK);
+    assert_eq!(make(&rows(&good), &given).0, OK);
 }
 
 #[test]
@@ -216,11 +208,7 @@ fn options_for_points_are_checked() {
     for (k, (change, expected)) in changes.into_iter().enumerate() {
         let mut options = point_options();
         change(&mut options);
-        let given = Given {
-            options: Some(options),
-            ..Given::default()
-        };
-        assert_eq!(refused(&view, &given), expected, "{k}");
+        assert_eq!(make(&view, &with_options(options)).0, expected, "{k}");
     }
 }
 
@@ -232,15 +220,12 @@ fn making_a_mesh_from_points_can_be_stopped_at_every_call() {
     let mut n = 0_i64;
     loop {
         let mut left = n;
-        let given = Given {
-            options: Some(HolefillPointOptions {
-                progress: Some(stop_at),
-                progress_data: (&raw mut left).cast(),
-                ..point_options()
-            }),
-            ..Given::default()
+        let options = HolefillPointOptions {
+            progress: Some(stop_at),
+            progress_data: (&raw mut left).cast(),
+            ..point_options()
         };
-        let (status, ..) = make(&view, &given);
+        let (status, ..) = make(&view, &with_options(options));
         if left >= 0 {
             assert_eq!(status, OK);
             break;

@@ -90,8 +90,9 @@ fn every_parameter_is_reached() {
     let known: Vec<_> = FillOptions::parameters().collect();
     assert_eq!(count as usize, known.len());
     assert!(holefill_parameter_name(count).is_null());
-    let mut parameters = HolefillParameters::default();
-    call!(holefill_parameters_new: &mut parameters);
+    let mut owned = Owned(HolefillParameters::default());
+    call!(holefill_parameters_new: &mut owned.0);
+    let parameters = owned.0;
     let mut asked = Vec::new();
     for (i, parameter) in (0..count).zip(&known) {
         let name = name(holefill_parameter_name(i));

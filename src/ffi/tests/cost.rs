@@ -73,10 +73,7 @@ fn the_way_through_c_costs_little() {
         .unwrap();
     println!("hole of {} edges", loop_info(mesh.0, hole).edge_count);
     let mut prepare = Vec::new();
-    // SAFETY: no pointer but null.
-    timed(&mut prepare, || unsafe {
-        holefill_mesh_prepare(mesh.0, nothing())
-    });
+    timed(&mut prepare, || call!(holefill_mesh_prepare: mesh.0));
     session.prepare();
     println!("loops and index: {:.3} s", prepare[0]);
     let (c_options, rust_options) = (

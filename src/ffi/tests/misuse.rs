@@ -200,28 +200,16 @@ fn what_is_not_there_is_not_found() {
     let mut numbers = [[0.0_f64; 3]; 2];
     let output = place(&mut numbers);
     let mut id = 0;
-    // SAFETY: all pointers are null or to living values.
-    unsafe {
-        for first in [count - 1, count, u64::MAX] {
-            let status = holefill_mesh_read_positions(mesh.0, first, &output, nothing());
-            assert_eq!(status, NOT_FOUND);
-        }
-        let mut error = HolefillError::default();
-        let status = holefill_mesh_find_loops(
-            mesh.0,
-            &at_edge([to, from]),
-            ptr::null_mut(),
-            0,
-            &mut id,
-            &mut error,
-        );
+    for first in [count - 1, count, u64::MAX] {
+        let status = call!(holefill_mesh_read_positions: mesh.0, first, &output);
         assert_eq!(status, NOT_FOUND);
-        assert!(message(error).contains("runs from"));
-        holefill_error_free(error);
-        for element in [0, 3, u32::MAX] {
-            let status = holefill_mesh_attribute_count(mesh.0, element, &mut id, nothing());
-            assert_eq!(status, INVALID);
-        }
+    }
+    let (turned, no) = (at_edge([to, from]), ptr::null_mut());
+    let (_, text) = said!(holefill_mesh_find_loops: mesh.0, &turned, no, 0, &mut id);
+    assert!(text.contains("runs from"), "{text}");
+    for element in [0, 3, u32::MAX] {
+        let status = call!(holefill_mesh_attribute_count: mesh.0, element, &mut id);
+        assert_eq!(status, INVALID);
     }
     assert_eq!(digest(mesh.0), before);
 }

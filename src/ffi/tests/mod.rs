@@ -15,6 +15,14 @@ macro_rules! ok {
     };
 }
 
+/// The status of a call, and what its error object says then.
+macro_rules! said {
+    ($function:ident: $($argument:expr),*) => {
+        // SAFETY: as said above.
+        explained(|error| unsafe { $function($($argument,)* error) })
+    };
+}
+
 /// The struct that a call writes, which must succeed.
 macro_rules! got {
     ($function:ident: $($argument:expr),*) => {{
@@ -60,6 +68,7 @@ use super::status::{
 use super::*;
 use crate::fixtures::{self, Arrays};
 use std::ffi::{CStr, CString, c_char, c_void};
+use std::hash::{DefaultHasher, Hasher};
 use std::ptr;
 
 /// A handle that is freed at the end.
@@ -190,19 +199,14 @@ fn loop_vertices(mesh: HolefillMesh, id: u64) -> Vec<u64> {
     )
 }
 
-/// A number for everything that a mesh holds: FNV-1a over what can be read.
+/// A number for everything that a mesh holds and that can be read.
 fn digest(mesh: HolefillMesh) -> u64 {
-    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-    let mut add = |bytes: &[u8]| {
-        for &byte in bytes {
-            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-        }
-    };
-    add(bytemuck::cast_slice(&positions(mesh)));
-    add(bytemuck::cast_slice(&triangles(mesh)));
-    add(&info(mesh).undo_count.to_le_bytes());
+    let mut hash = DefaultHasher::new();
+    hash.write(bytemuck::cast_slice(&positions(mesh)));
+    hash.write(bytemuck::cast_slice(&triangles(mesh)));
+    hash.write_u64(info(mesh).undo_count);
     for id in 0..loop_count(mesh) {
-        add(&loop_info(mesh, id).is_open.to_le_bytes());
+        hash.write_u32(loop_info(mesh, id).is_open);
     }
     for element in [HOLEFILL_ELEMENT_VERTEX, HOLEFILL_ELEMENT_TRIANGLE] {
         let mut count = 0;
@@ -214,10 +218,10 @@ fn digest(mesh: HolefillMesh) -> u64 {
             let mut output = place(&mut values);
             output.count = info.count;
             ok!(holefill_mesh_read_attribute: mesh, element, index, 0, &output);
-            add(bytemuck::cast_slice(&values));
+            hash.write(bytemuck::cast_slice(&values));
         }
     }
-    hash
+    hash.finish()
 }
 
 /// What a function writes that hands out a text.
@@ -256,6 +260,20 @@ fn message(error: HolefillError) -> String {
     text(&|buffer, capacity, length| unsafe {
         holefill_error_message(error, buffer, capacity, length)
     })
+}
+
+fn explained(call: impl FnOnce(*mut HolefillError) -> HolefillStatus) -> (HolefillStatus, String) {
+    let mut error = Owned(HolefillError::default());
+    let status = call(&mut error.0);
+    if status == OK {
+        assert_eq!(error.0.id, 0, "success leaves it alone");
+        return (OK, String::new());
+    }
+    let mut stored = OK;
+    // SAFETY: the pointer is to a living value.
+    assert_eq!(unsafe { holefill_error_status(error.0, &mut stored) }, OK);
+    assert_eq!(stored, status);
+    (status, message(error.0))
 }
 
 fn options() -> HolefillFillOptions {

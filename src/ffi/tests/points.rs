@@ -36,28 +36,16 @@ fn make(
     given: &Given,
 ) -> (HolefillStatus, Owned<HolefillMesh>, HolefillPointSummary) {
     let mut mesh = Owned(HolefillMesh::default());
-    let (mut summary, mut error) = Default::default();
-    // SAFETY: all pointers are null or to living values.
-    let status = unsafe {
-        let normals = or_null(&given.normals);
-        let colors = or_null(&given.colors);
-        let (options, made) = (or_null(&given.options), &mut mesh.0);
-        holefill_mesh_from_points(
-            points,
-            normals,
-            colors,
-            options,
-            made,
-            &mut summary,
-            &mut error,
-        )
-    };
+    let mut summary = HolefillPointSummary::default();
+    let (normals, colors) = (or_null(&given.normals), or_null(&given.colors));
+    let (options, made, became) = (or_null(&given.options), &mut mesh.0, &mut summary);
+    let (status, text) =
+        said!(holefill_mesh_from_points: points, normals, colors, options, made, became);
     if status != OK {
         let written = (mesh.0.id, summary.triangle_count);
         assert_eq!(written, (0, 0), "outputs are written only on success");
-        assert!(!message(error).is_empty());
+        assert!(!text.is_empty());
     }
-    holefill_error_free(error);
     (status, mesh, summary)
 }
 

@@ -49,14 +49,10 @@ fn every_method_is_reached() {
 /// Sets a parameter through C; whether it was taken.
 fn set(parameters: HolefillParameters, name: &str, value: &str) -> bool {
     let (name, value) = (text_of(name), text_of(value));
-    let mut error = HolefillError::default();
-    // SAFETY: the texts end with a zero byte.
-    let status =
-        unsafe { holefill_parameters_set(parameters, name.as_ptr(), value.as_ptr(), &mut error) };
+    let (status, text) = said!(holefill_parameters_set: parameters, name.as_ptr(), value.as_ptr());
     if status != OK {
         assert_eq!(status, INVALID);
-        assert!(message(error).contains(name.to_str().unwrap()));
-        holefill_error_free(error);
+        assert!(text.contains(name.to_str().unwrap()));
     }
     status == OK
 }
@@ -115,12 +111,10 @@ fn every_parameter_is_reached() {
         assert!(changed, "{name} never changes: {}", parameter.allowed());
         asked.push(get(parameters, name));
     }
-    let (mut error, no) = (HolefillError::default(), c"no".as_ptr());
-    // SAFETY: the texts are static.
-    let status = unsafe { holefill_parameters_set(parameters, no, no, &mut error) };
+    let no = c"no".as_ptr();
+    let (status, text) = said!(holefill_parameters_set: parameters, no, no);
     assert_eq!(status, NOT_FOUND);
-    assert!(message(error).contains("refine.density"));
-    holefill_error_free(error);
+    assert!(text.contains("refine.density"));
     // And a fill that is given them gets them.
     let given = HolefillFillOptions {
         parameters,

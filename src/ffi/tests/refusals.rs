@@ -204,37 +204,6 @@ impl Drop for World {
     }
 }
 
-/// What a call takes as a pointer.
-trait Pointer {
-    type Raw;
-
-    fn or_null(self, is_null: bool) -> Self::Raw;
-}
-
-impl<T> Pointer for &T {
-    type Raw = *const T;
-
-    fn or_null(self, is_null: bool) -> *const T {
-        if is_null { ptr::null() } else { self }
-    }
-}
-
-impl<T> Pointer for *const T {
-    type Raw = *const T;
-
-    fn or_null(self, is_null: bool) -> *const T {
-        if is_null { ptr::null() } else { self }
-    }
-}
-
-impl<T> Pointer for *mut T {
-    type Raw = *mut T;
-
-    fn or_null(self, is_null: bool) -> *mut T {
-        if is_null { ptr::null_mut() } else { self }
-    }
-}
-
 /// What is wrong in a call: the pointer that is null, or the handle of a kind that is that of nothing.
 #[derive(Clone, Copy, Debug, Default)]
 struct Wrong {
@@ -249,10 +218,14 @@ macro_rules! argument {
         $plain
     };
     ($w:ident, $wrong:ident, !) => {
-        Pointer::or_null(&raw mut $w.error, $wrong.null == Some("error"))
+        argument!($w, $wrong, ["error", &raw mut $w.error])
     };
     ($w:ident, $wrong:ident, [$name:literal, $pointer:expr $(, $status:expr)?]) => {
-        Pointer::or_null($pointer, $wrong.null == Some($name))
+        match $wrong.null == Some($name) {
+            // A null pointer, to read or to write.
+            true => std::mem::zeroed(),
+            false => $pointer,
+        }
     };
     ($w:ident, $wrong:ident, {$handle:ident $known:expr}) => {
         match $wrong.handle {
@@ -490,7 +463,7 @@ places! {
     "output" 24 POINT_TYPES |n| n + 1, NOT_FOUND, (a, s) {
         let mut room = a.positions.clone();
         let HolefillInput { data, count, stride, scalar_type, reserved } = s(rows(&room));
-        let data = room.as_mut_ptr().cast::<c_void>().or_null(data.is_null());
+        let data = if data.is_null() { ptr::null_mut() } else { room.as_mut_ptr().cast() };
         let output = HolefillOutput { data, count, stride, scalar_type, reserved };
         call!(holefill_mesh_read_positions: mesh_of(a).0, 0, &output)
     };
@@ -547,17 +520,8 @@ fn rows_that_cannot_be_are_refused_in_every_place() {
 #[test]
 fn numbers_that_cannot_be_are_refused_with_their_place() {
     let made = |positions: &HolefillInput, triangles: &HolefillInput| {
-        let (mut mesh, mut error) = (HolefillMesh::default(), HolefillError::default());
-        // SAFETY: the views describe living memory.
-        let status =
-            unsafe { holefill_mesh_from_arrays(positions, triangles, &mut mesh, &mut error) };
-        let mut stored = OK;
-        // SAFETY: the pointer is to a living value.
-        unsafe { holefill_error_status(error, &mut stored) };
-        assert_eq!(stored, status);
-        let text = message(error);
-        holefill_error_free(error);
-        (status, text)
+        let mut mesh = Owned(HolefillMesh::default());
+        said!(holefill_mesh_from_arrays: positions, triangles, &mut mesh.0)
     };
     let small = Arrays {
         positions: vec![[0.0_f64, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],

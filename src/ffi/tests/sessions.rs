@@ -27,14 +27,10 @@ fn polyline(normals: Option<&[[f64; 3]]>) -> Owned<HolefillMesh> {
     let points = circle();
     let points = rows(&points);
     let normals = normals.map(|n| rows(n));
-    let mut mesh = HolefillMesh::default();
-    // SAFETY: all pointers are null or to living values.
-    let status = unsafe {
-        let normals = normals.as_ref().map_or(ptr::null(), ptr::from_ref);
-        holefill_mesh_from_polyline(&points, normals, &mut mesh, nothing())
-    };
-    assert_eq!(status, OK);
-    Owned(mesh)
+    let normals = normals.as_ref().map_or(ptr::null(), ptr::from_ref);
+    let mut mesh = Owned(HolefillMesh::default());
+    ok!(holefill_mesh_from_polyline: &points, normals, &mut mesh.0);
+    mesh
 }
 
 /// Largest distance of the new vertices from the unit sphere.

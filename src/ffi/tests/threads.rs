@@ -30,35 +30,22 @@ fn random_call(
     let mut number = 0;
     let mut point = [[0.0_f64; 3]; 3];
     let output = place(&mut point);
-    // SAFETY: all pointers are null or to living values.
-    unsafe {
-        match noise.below(12) {
-            0..3 => (
-                holefill_mesh_loop_count(mesh, &mut number, nothing()),
-                READS,
-            ),
-            3..6 => {
-                let status = holefill_mesh_read_positions(mesh, 1, &output, nothing());
-                (status, READS)
+    match noise.below(12) {
+        0..3 => (call!(holefill_mesh_loop_count: mesh, &mut number), READS),
+        3..6 => (call!(holefill_mesh_read_positions: mesh, 1, &output), READS),
+        6 => (
+            call!(holefill_mesh_loop_info: mesh, id, &mut Default::default()),
+            READS,
+        ),
+        7..9 => (fill_loop(mesh, id, &options), FILLS),
+        9 => (undo(mesh), UNDOES),
+        planned => {
+            let mut plan = Owned(HolefillPlan::default());
+            let status = call!(holefill_mesh_plan: mesh, &at_loop(id), &options, &mut plan.0);
+            if status == OK && planned == 10 {
+                return (apply(&plan, mesh), APPLIES);
             }
-            6 => {
-                let mut info = Default::default();
-                (
-                    holefill_mesh_loop_info(mesh, id, &mut info, nothing()),
-                    READS,
-                )
-            }
-            7..9 => (fill_loop(mesh, id, &options), FILLS),
-            9 => (undo(mesh), UNDOES),
-            applied => {
-                let mut plan = Owned(HolefillPlan::default());
-                let place = &mut plan.0;
-                let status = holefill_mesh_plan(mesh, &at_loop(id), &options, place, nothing());
-                if status == OK && applied == 10 {
-                    return (apply(&plan, mesh), APPLIES);
-                }
-                (status, FILLS)
-            }
+            (status, FILLS)
         }
     }
 }

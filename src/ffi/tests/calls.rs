@@ -232,8 +232,10 @@ fn undo_brings_back_every_state_in_turn() {
 #[test]
 fn a_report_says_what_happened_to_each_hole() {
     let mesh = holed_mesh();
-    let mut rules = HolefillSelection::default();
-    rules.keep_largest = 1;
+    let rules = HolefillSelection {
+        keep_largest: 1,
+        ..Default::default()
+    };
     let (status, report) = report_of(mesh.0, &selected(&rules), &with_method(c"fair-c1"));
     assert_eq!(status, OK);
     let holes = [hole(&report, 0), hole(&report, 1)];

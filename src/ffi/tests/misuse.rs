@@ -165,8 +165,11 @@ fn what_is_not_there_is_not_found() {
     let far = rows(&[0_u64, u64::MAX - 9]);
     let none = rows(&[0_u32, 2]);
     let negative = rows(&[-1_i32]);
-    let mut bad_edge = HolefillSelection::default();
-    bad_edge.only = rows(&[[0_u32, 1]]);
+    let edge = [[0_u32, 1]];
+    let bad_edge = HolefillSelection {
+        only: rows(&edge),
+        ..Default::default()
+    };
     let reserved = HolefillTarget {
         reserved: 1,
         ..every_loop()

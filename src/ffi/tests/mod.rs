@@ -277,9 +277,10 @@ fn explained(call: impl FnOnce(*mut HolefillError) -> HolefillStatus) -> (Holefi
 }
 
 fn options() -> HolefillFillOptions {
-    let mut options = HolefillFillOptions::default();
-    options.threads = 1;
-    options
+    HolefillFillOptions {
+        threads: 1,
+        ..Default::default()
+    }
 }
 
 fn with_method(method: &'static CStr) -> HolefillFillOptions {

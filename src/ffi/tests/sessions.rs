@@ -26,7 +26,7 @@ fn circle() -> Vec<[f64; 3]> {
 fn polyline(normals: Option<&[[f64; 3]]>) -> Owned<HolefillMesh> {
     let points = circle();
     let points = rows(&points);
-    let normals = normals.map(|n| rows(n));
+    let normals = normals.map(rows);
     let normals = normals.as_ref().map_or(ptr::null(), ptr::from_ref);
     let mut mesh = Owned(HolefillMesh::default());
     ok!(holefill_mesh_from_polyline: &points, normals, &mut mesh.0);
@@ -170,7 +170,7 @@ fn holes_filled_one_by_one_are_checked_against_each_other() {
         .map(|id| planned.plan(Target::Loops(&[id]), &options, None).unwrap())
         .collect();
     for plan in &plans {
-        planned.apply(&plan, None).unwrap();
+        planned.apply(plan, None).unwrap();
     }
     assert_eq!(planned.mesh().triangles(), at_once.mesh().triangles());
 }

@@ -477,7 +477,8 @@ private:
 class Call : public Callbacks {
 public:
     Call(const Options& options, Steps& call)
-        : Callbacks(options.progress_, options.log_), parameters_(options.make(call)), raw_(options.raw_) {
+        : Callbacks(options.progress_, options.log_),
+          parameters_(options.named_.empty() ? Options::Parameters() : options.make(call)), raw_(options.raw_) {
         Callbacks* callbacks = this;
         raw_.method = options.method_.empty() ? nullptr : options.method_.c_str();
         raw_.parameters = parameters_.get();

@@ -204,6 +204,30 @@ impl Drop for World {
     }
 }
 
+/// What a call takes as a pointer: what it points to lives until the call is over.
+trait Pointer {
+    type Raw;
+
+    fn or_null(self, is_null: bool) -> Self::Raw;
+}
+
+macro_rules! pointers {
+    ($($given:ty => $raw:ty, $null:expr;)*) => {
+        $(impl<T> Pointer for $given {
+            type Raw = $raw;
+
+            fn or_null(self, is_null: bool) -> $raw {
+                if is_null { $null } else { self }
+            }
+        })*
+    };
+}
+pointers! {
+    &T => *const T, ptr::null();
+    *const T => *const T, ptr::null();
+    *mut T => *mut T, ptr::null_mut();
+}
+
 /// What is wrong in a call: the pointer that is null, or the handle of a kind that is that of nothing.
 #[derive(Clone, Copy, Debug, Default)]
 struct Wrong {
@@ -221,11 +245,7 @@ macro_rules! argument {
         argument!($w, $wrong, ["error", &raw mut $w.error])
     };
     ($w:ident, $wrong:ident, [$name:literal, $pointer:expr $(, $status:expr)?]) => {
-        match $wrong.null == Some($name) {
-            // A null pointer, to read or to write.
-            true => std::mem::zeroed(),
-            false => $pointer,
-        }
+        Pointer::or_null($pointer, $wrong.null == Some($name))
     };
     ($w:ident, $wrong:ident, {$handle:ident $known:expr}) => {
         match $wrong.handle {

@@ -312,7 +312,7 @@ FilterHolefill::Values FilterHolefill::fillHoles(const RichParameterList& parame
 
 FilterHolefill::Values FilterHolefill::selectRims(const RichParameterList& parameters, MeshModel& model) const {
     const Exchange exchange(model);
-    const std::vector<uint64_t> chosen = exchange.mesh().select(to_selection(exchange, read_rules(parameters)));
+    const std::vector<uint64_t> chosen = exchange.mesh().find_loops(to_selection(exchange, read_rules(parameters)));
     const RimEdges rims(exchange.mesh());
     const std::vector<std::array<uint32_t, 3>> triangles = exchange.mesh().triangles();
     Places rim;

@@ -99,7 +99,7 @@ void fill_hole(HalfedgeMesh& mesh, int picked) {
     const holefill::Mesh input = holefill::Mesh::from_arrays(points, triangles);
 
     const auto& edge = mesh.halfedges[picked];
-    const uint64_t loop = input.find_edge(edge.from, edge.to);
+    const uint64_t loop = input.find_loops(holefill::Target::edge(edge.from, edge.to)).at(0);
     const holefill::Plan plan = input.plan(holefill::Target::loop(loop));
     const holefill::Hole hole = plan.report().hole(0);
     if (hole.status != HOLEFILL_HOLE_FILLED) {

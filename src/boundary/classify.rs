@@ -4,6 +4,7 @@ use super::loops::BoundaryLoop;
 use crate::job::Job;
 use crate::math::aabb::Aabb;
 use crate::math::box_tree::BoxTree;
+use crate::math::frame::axes_across;
 use crate::math::{Vec3, cross_normal, unit};
 use crate::mesh::connectivity::{BOUNDARY, DEGENERATE};
 use crate::mesh::trimesh::TriMesh;
@@ -52,6 +53,17 @@ impl LoopClass {
             Self::OuterRim => "outer-rim",
             Self::NotOriented => "not-oriented",
             Self::OpenChain => "open-chain",
+        }
+    }
+
+    /// Why no patch can be made for a loop of this kind.
+    pub(crate) fn unfillable_reason(self) -> Option<&'static str> {
+        match self {
+            Self::NotOriented => Some("the triangles along the loop are not oriented alike"),
+            Self::OpenChain => Some(
+                "the boundary does not close: it runs into an edge with more than two triangles",
+            ),
+            _ => None,
         }
     }
 }
@@ -189,8 +201,7 @@ fn spans_over(mesh: &TriMesh, host: &BoundaryLoop, island: &BoundaryLoop) -> boo
         return false;
     }
     let across = unit(area);
-    let right = unit(across.cross(&Vec3::ith(across.iamin(), 1.0)));
-    let up = across.cross(&right);
+    let [right, up] = axes_across(&across);
     let project = |&v: &u32| {
         let p = mesh.point(v);
         [p.dot(&right), p.dot(&up)]

@@ -3,6 +3,7 @@
 pub(crate) mod classify;
 pub(crate) mod linked;
 pub(crate) mod loops;
+pub(crate) mod opening;
 pub(crate) mod select;
 
 #[cfg(test)]

@@ -13,9 +13,8 @@ use super::structs::{blank, check_struct, read_struct, write_struct};
 use super::types::{
     HolefillError, HolefillInput, HolefillMesh, HolefillPointOptions, HolefillPointSummary,
 };
-use crate::fill::pipeline::thread_pool;
 use crate::fill::progress::Watch;
-use crate::fill::session::FillSession;
+use crate::fill::session::{FillSession, thread_pool};
 use crate::job::Job;
 use crate::mesh::trimesh::TriMesh;
 use crate::options::FillOptions;

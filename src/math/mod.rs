@@ -1,9 +1,11 @@
-//! Vectors, planes, boxes, random numbers and the sparse solver: no mesh, no hole.
+//! Vectors, frames, planes, boxes, adjacency lists, random numbers and the sparse solver: no mesh, no hole.
 
 pub(crate) mod aabb;
+pub(crate) mod adjacency;
 mod background;
 pub(crate) mod box_tree;
 mod envelope;
+pub(crate) mod frame;
 pub(crate) mod least_squares;
 pub(crate) mod plane;
 pub(crate) mod random;

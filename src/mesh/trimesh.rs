@@ -18,7 +18,7 @@ const VERTEX_CHUNK: usize = 1 << 14;
 /// and several components are all allowed: they are kept as they are and listed by
 /// [`TriMesh::defects`]. Vertices and triangles are never changed, moved or reordered; filling holes
 /// only appends.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct TriMesh {
     positions: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,

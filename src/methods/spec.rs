@@ -5,7 +5,8 @@ use super::task::Task;
 use crate::error::Result;
 use crate::math::Vec3;
 use crate::options::FillOptions;
-use crate::patch::{PatchSurface, Surroundings};
+use crate::patch::PatchSurface;
+use crate::surroundings::Surroundings;
 
 /// All that the rest of the library knows of a method.
 pub(crate) struct MethodSpec {
@@ -68,7 +69,7 @@ pub(crate) struct HoleReach {
     /// Rings of triangles, all of each.
     pub(crate) rings: u32,
     /// Besides, the triangles that touch a vertex nearer to the rim than so many sampling steps (see
-    /// [`HoleShape::sampling_step`](crate::patch::HoleShape::sampling_step)).
+    /// [`Hole::sampling_step`](crate::hole::Hole::sampling_step)).
     pub(crate) steps: f64,
 }
 

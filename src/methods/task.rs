@@ -1,8 +1,8 @@
 //! One hole to be filled by one method after the other.
 
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::options::FillOptions;
-use crate::patch::HoleShape;
 use std::any::Any;
 use std::cell::RefCell;
 
@@ -10,7 +10,7 @@ use std::cell::RefCell;
 /// hole.
 pub(crate) struct Task<'a> {
     /// The hole.
-    pub(crate) hole: &'a HoleShape,
+    pub(crate) hole: &'a Hole,
     /// What the user chose.
     pub(crate) options: &'a FillOptions,
     /// Ends the work when it is stopped.
@@ -21,7 +21,7 @@ pub(crate) struct Task<'a> {
 
 impl<'a> Task<'a> {
     /// Nothing is known yet.
-    pub(crate) fn new(hole: &'a HoleShape, options: &'a FillOptions, job: &'a Job<'a>) -> Self {
+    pub(crate) fn new(hole: &'a Hole, options: &'a FillOptions, job: &'a Job<'a>) -> Self {
         Self {
             hole,
             options,

@@ -6,6 +6,7 @@
 //! Decisions in the plane are exact for the coordinates in it (the crate `robust`).
 
 use crate::math::Vec3;
+use crate::math::frame::axes_across;
 use robust::Coord;
 
 /// The largest slope of the line to a neighbour against the tangent plane, as a tangent: 60°. Steeper lines
@@ -29,13 +30,12 @@ pub(super) struct Tangent {
 impl Tangent {
     /// The frame at `origin`; seen against `normal`, a unit vector, angles run counter-clockwise.
     pub(super) fn new(origin: Vec3, normal: Vec3) -> Self {
-        // The axis that is farthest from the normal, for a cross product without cancellation.
-        let u = normal.cross(&Vec3::ith(normal.iamin(), 1.0)).normalize();
+        let [u, v] = axes_across(&normal);
         Self {
             origin,
             normal,
             u,
-            v: normal.cross(&u),
+            v,
         }
     }
 

@@ -13,11 +13,13 @@ use super::mask;
 use super::options::{MlsDomain, MlsOptions, MlsUnit};
 use super::vicinity::{Vicinity, rim_loops};
 use crate::error::{Error, ErrorKind, Result};
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal};
+use crate::patch::PatchSurface;
 use crate::patch::chords::joined_chords;
 use crate::patch::mesh::PatchMesh;
-use crate::patch::{HoleShape, PatchSurface, Surroundings};
+use crate::surroundings::Surroundings;
 use crate::triangulate::planar::triangulate_planar_region;
 use crate::triangulate::simple_polygon::{Point2, find_contact};
 
@@ -36,7 +38,7 @@ const RADIUS_SHARE: f64 = 0.25;
 
 /// The height field round one hole.
 pub(crate) struct HeightField<'a> {
-    hole: &'a HoleShape,
+    hole: &'a Hole,
     options: &'a MlsOptions,
     vicinity: Vicinity,
     domain: Domain,
@@ -54,7 +56,7 @@ impl<'a> HeightField<'a> {
     /// [`ErrorKind::Geometry`] when the vicinity does not project one-to-one onto the domain, or there is no
     /// domain; [`ErrorKind::Topology`] when an island touches the rim; [`ErrorKind::Cancelled`].
     pub(crate) fn new(
-        hole: &'a HoleShape,
+        hole: &'a Hole,
         surroundings: &Surroundings,
         options: &'a MlsOptions,
         job: &Job<'_>,
@@ -66,7 +68,7 @@ impl<'a> HeightField<'a> {
         let rim: Vec<Vec3> = hole
             .polygon
             .iter()
-            .map(|&v| hole.points[v as usize])
+            .map(|&v| surroundings.point(v))
             .collect();
         let on = |domain: Domain| {
             let projection = Projection::new(&domain, &vicinity, &loops, job)?;
@@ -97,7 +99,7 @@ impl<'a> HeightField<'a> {
         })
     }
 
-    /// The vertices of the vicinity, as [`HoleShape::point`] counts them.
+    /// The vertices of the vicinity, in the surroundings.
     pub(crate) fn vertices(&self) -> &[u32] {
         &self.vicinity.vertices
     }
@@ -135,12 +137,12 @@ impl<'a> HeightField<'a> {
         // The triangulation counts the vertices of the loops and then the samples.
         let order: Vec<u32> = self.loops.iter().flatten().copied().collect();
         let mut triangles = triangulate_planar_region(&loops, &samples, job)?;
-        let shift = hole.points.len() - order.len();
+        let shift = hole.rim().len() - order.len();
         let global = |v: u32| order.get(v as usize).copied().unwrap_or(v + shift as u32);
         for round in 0.. {
             let triangles_in_space = triangles.iter().map(|t| t.map(global)).collect();
-            let count = hole.points.len() + samples.len();
-            let mesh = PatchMesh::new(triangles_in_space, count, hole.points.len())?;
+            let count = hole.rim().len() + samples.len();
+            let mesh = PatchMesh::new(triangles_in_space, count, hole.rim().len())?;
             let mut chords = joined_chords(&mesh, hole);
             if chords.is_empty() || round == CHORD_ROUNDS {
                 break;
@@ -153,13 +155,13 @@ impl<'a> HeightField<'a> {
             triangles = triangulate_planar_region(&loops, &samples, job)?;
         }
         let heights = self.fitted(std::slice::from_ref(&self.heights), &samples, job)?;
-        let mut points = hole.points.clone();
+        let mut points = hole.rim().to_vec();
         points.extend(samples.iter().zip(&heights[0]).map(|(&uv, &height)| {
             let place = Place { uv, height };
             self.domain.point(&place)
         }));
         Ok(PatchSurface {
-            rim_count: hole.points.len(),
+            rim_count: hole.rim().len(),
             points,
             triangles: triangles.into_iter().map(|t| t.map(global)).collect(),
         })
@@ -207,7 +209,7 @@ impl<'a> HeightField<'a> {
         match self.options.unit {
             MlsUnit::Step => self.vicinity.step,
             MlsUnit::Radius => {
-                let rim = &self.uv[..self.hole.points.len()];
+                let rim = &self.uv[..self.hole.rim().len()];
                 let count = rim.len() as f64;
                 let mean = |k: usize| rim.iter().map(|p| p[k]).sum::<f64>() / count;
                 let (u, v) = (mean(0), mean(1));

@@ -8,11 +8,12 @@
 //! mesh joins already, turns a triangle over or makes the patch non-manifold.
 
 use crate::error::Result;
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
+use crate::patch::PatchSurface;
 use crate::patch::chords::{joined_chords, split_middle};
 use crate::patch::mesh::{Halfedge, PatchMesh, next, prev};
-use crate::patch::{HoleShape, PatchSurface};
 use std::collections::BTreeSet;
 
 /// A triangle may turn by less than the angle with this cosine when an edge is collapsed or swapped.
@@ -25,7 +26,7 @@ const LEAST_GAIN: f64 = 1e-6;
 pub(super) struct Editor<'a> {
     mesh: PatchMesh,
     points: Vec<Vec3>,
-    hole: &'a HoleShape,
+    hole: &'a Hole,
     /// The number of the last change of each triangle, and how many there were. Of two triangles at an edge the one that
     /// was changed earlier comes first, which settles the order of the swaps.
     changed: Vec<usize>,
@@ -37,7 +38,7 @@ impl<'a> Editor<'a> {
     ///
     /// # Errors
     /// Those of [`PatchMesh::new`].
-    pub(super) fn new(surface: PatchSurface, hole: &'a HoleShape) -> Result<Self> {
+    pub(super) fn new(surface: PatchSurface, hole: &'a Hole) -> Result<Self> {
         let triangle_count = surface.triangles.len();
         let point_count = surface.points.len();
         let mut editor = Self {
@@ -64,7 +65,7 @@ impl<'a> Editor<'a> {
 
     /// The patch without what is gone, and without points that no triangle has.
     pub(super) fn finish(self) -> PatchSurface {
-        let rim_count = self.hole.points.len();
+        let rim_count = self.hole.rim().len();
         let mut number = vec![u32::MAX; self.points.len()];
         let mut points = Vec::new();
         for (v, p) in self.points.iter().enumerate() {

@@ -1,8 +1,8 @@
 //! The rim as the steps of HPDE read it.
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::hole::Hole;
 use crate::math::{Vec3, unit};
-use crate::patch::HoleShape;
 
 /// A closed polygon in the patch's orientation, with the known surface along it.
 #[derive(Clone, Debug)]
@@ -65,9 +65,9 @@ impl Rim {
 ///
 /// # Errors
 /// [`ErrorKind::Topology`].
-pub(super) fn check_simple(hole: &HoleShape) -> Result<()> {
-    let mut seen = vec![false; hole.points.len()];
-    let is_simple = hole.polygon.len() == hole.points.len()
+pub(super) fn check_simple(hole: &Hole) -> Result<()> {
+    let mut seen = vec![false; hole.rim().len()];
+    let is_simple = hole.polygon.len() == hole.rim().len()
         && hole
             .polygon
             .iter()
@@ -85,7 +85,7 @@ pub(super) fn check_simple(hole: &HoleShape) -> Result<()> {
 ///
 /// # Errors
 /// [`ErrorKind::Geometry`] if none has an area.
-pub(super) fn edge_normals(hole: &HoleShape) -> Result<Vec<Vec3>> {
+pub(super) fn edge_normals(hole: &Hole) -> Result<Vec<Vec3>> {
     let m = hole.polygon.len();
     let Some(first) = hole.outside_normals.iter().position(Option::is_some) else {
         return Err(Error::new(
@@ -106,19 +106,16 @@ pub(super) fn edge_normals(hole: &HoleShape) -> Result<Vec<Vec3>> {
 /// Mean edge length of the known triangles that touch the rim, each triangle's edges counted, but at most the mean
 /// length of the rim's edges, which is the unit: on a horn triangles can be long away from the rim, and the patch
 /// has to meet the rim.
-pub(super) fn mean_edge_length(hole: &HoleShape) -> f64 {
-    let rim_count = hole.points.len();
-    let point = |v: u32| match (v as usize).checked_sub(rim_count) {
-        Some(outer) => hole.surroundings.points[outer],
-        None => hole.points[v as usize],
-    };
+pub(super) fn mean_edge_length(hole: &Hole) -> f64 {
+    let around = &hole.surroundings;
+    let rim_count = hole.rim().len();
     let (mut sum, mut count) = (0.0, 0.0);
-    for t in &hole.surroundings.triangles {
+    for t in around.triangles() {
         if t.iter().all(|&v| v as usize >= rim_count) {
             continue;
         }
         for k in 0..3 {
-            sum += (point(t[k]) - point(t[(k + 1) % 3])).norm();
+            sum += (around.point(t[k]) - around.point(t[(k + 1) % 3])).norm();
             count += 1.0;
         }
     }

@@ -85,7 +85,7 @@ struct Embedded(Result<PatchSurface>);
 
 fn embed(task: &Task<'_>) -> Result<PatchSurface> {
     let hole = task.hole;
-    if hole.polygon.len() != hole.points.len() {
+    if hole.polygon.len() != hole.rim().len() {
         return Err(Error::new(
             ErrorKind::InvalidInput,
             "a rim with islands is not one curve that could be unfolded",
@@ -94,14 +94,14 @@ fn embed(task: &Task<'_>) -> Result<PatchSurface> {
     let curve: Vec<Vec3> = hole
         .polygon
         .iter()
-        .map(|&v| hole.points[v as usize])
+        .map(|&v| hole.rim()[v as usize])
         .collect();
     let options = task.options;
     let unfolding = unfold(&curve, &options.methods.unfold, options.seed, task.job)?;
     let triangles = triangulate_planar_region(&[&unfolding.polygon], &[], task.job)?;
     let mut surface = PatchSurface {
-        rim_count: hole.points.len(),
-        points: hole.points.clone(),
+        rim_count: hole.rim().len(),
+        points: hole.rim().to_vec(),
         triangles: triangles
             .iter()
             .map(|t| t.map(|position| hole.polygon[position as usize]))

@@ -5,6 +5,7 @@
 //! by the function that interpolates it.
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::methods::auto::creases::detect::Regions;
 use crate::methods::auto::surface::algebraic::{AlgebraicSurface, Kind};
@@ -12,8 +13,8 @@ use crate::methods::auto::surface::candidates::Candidate;
 use crate::methods::auto::surface::choice::{self, FITTED_RINGS};
 use crate::methods::auto::surface::samples::SampledBand;
 use crate::methods::auto::surface::{Implicit, Sample};
-use crate::patch::HoleShape;
-use crate::surroundings::Band;
+use crate::surroundings::Surroundings;
+use crate::surroundings::fits::QuadricFits;
 
 /// A region is a plane when its vertices are this close to one, in rim edge lengths, or by this factor of its noise.
 const PLANE_DISTANCE: f64 = 5e-3;
@@ -35,32 +36,19 @@ pub(crate) struct RegionSurface {
 }
 
 /// The triangles of one region as the surroundings of the part of the rim that they touch.
-fn region_shape(hole: &HoleShape, faces: &[u32]) -> HoleShape {
-    let (rim_count, around) = (hole.points.len(), &hole.surroundings);
-    let triangles: Vec<[u32; 3]> = faces
-        .iter()
-        .map(|&f| around.triangles[f as usize])
-        .collect();
-    let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
+fn region_of(around: &Surroundings, faces: &[u32]) -> Surroundings {
+    let triangles = || faces.iter().map(|&f| around.triangles()[f as usize]);
+    let mut used: Vec<u32> = triangles().flatten().collect();
     used.sort_unstable();
     used.dedup();
-    let mut shape = HoleShape::default();
-    for &v in &used {
-        match (v as usize).checked_sub(rim_count) {
-            None => {
-                shape.points.push(hole.points[v as usize]);
-                shape.edge_lengths.push(hole.edge_lengths[v as usize]);
-            }
-            Some(outer) => {
-                shape.surroundings.points.push(around.points[outer]);
-                shape.surroundings.levels.push(around.levels[outer]);
-            }
-        }
-    }
     // Every vertex is in the list.
     let number = |v: u32| used.partition_point(|&u| u < v) as u32;
-    shape.surroundings.triangles = triangles.iter().map(|t| t.map(number)).collect();
-    shape
+    Surroundings::new(
+        number(around.rim().len() as u32) as usize,
+        used.iter().map(|&v| around.point(v)).collect(),
+        used.iter().map(|&v| around.levels()[v as usize]).collect(),
+        triangles().map(|t| t.map(number)).collect(),
+    )
 }
 
 /// Chooses a surface for each region. `step` is the mean edge length at the rim; `allowed` says which candidates
@@ -69,7 +57,7 @@ fn region_shape(hole: &HoleShape, faces: &[u32]) -> HoleShape {
 /// # Errors
 /// [`ErrorKind::Geometry`] when a region is too small; [`ErrorKind::Cancelled`].
 pub(crate) fn fit_regions(
-    hole: &HoleShape,
+    hole: &Hole,
     regions: &Regions,
     step: f64,
     allowed: &dyn Fn(Candidate, &SampledBand) -> bool,
@@ -77,8 +65,9 @@ pub(crate) fn fit_regions(
 ) -> Result<Vec<RegionSurface>> {
     let fit = |faces: &Vec<u32>| {
         job.ask()?;
-        let band = Band::new(&region_shape(hole, faces), job)?;
-        let mut samples = SampledBand::new(band, hole, step, true, job);
+        let region = region_of(&hole.surroundings, faces);
+        let fits = QuadricFits::new(&region, job)?;
+        let mut samples = SampledBand::new(fits, hole, step, true, job);
         let is_noisy = samples.is_noisy();
         let candidates: Vec<Candidate> = Candidate::ALL
             .into_iter()

@@ -4,10 +4,10 @@
 //! itself: then the patch continues the region on the other side.
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::hole::Hole;
 use crate::math::unit;
 use crate::methods::auto::creases::detect::Regions;
 use crate::methods::auto::surface::{Implicit, project};
-use crate::patch::HoleShape;
 
 /// A rim vertex this close to both surfaces, in rim edge lengths, lies on their crease.
 const ON_SURFACE: f64 = 0.1;
@@ -20,13 +20,13 @@ const ALONG: f64 = 0.7;
 /// # Errors
 /// [`ErrorKind::Geometry`] when nothing is left of a region.
 pub(crate) fn slide_ends(
-    hole: &HoleShape,
+    hole: &Hole,
     regions: &mut Regions,
     surfaces: &[&dyn Implicit],
     step: f64,
 ) -> Result<()> {
     let len = hole.polygon.len();
-    let point = |position: usize| hole.points[hole.polygon[position % len] as usize];
+    let point = |position: usize| hole.rim()[hole.polygon[position % len] as usize];
     for k in 0..regions.ends.len() {
         for _ in 0..len {
             let end = regions.ends[k];

@@ -3,10 +3,10 @@
 use super::Sample;
 use super::choice::RINGS;
 use crate::error::Result;
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::Vec3;
-use crate::patch::HoleShape;
-use crate::surroundings::Band;
+use crate::surroundings::fits::QuadricFits;
 use std::ops::Range;
 
 /// Samples closer to each other than this share of the rim's edge length make systems ill-conditioned.
@@ -35,7 +35,7 @@ const LAST_NOISE_LEVEL: u32 = 7;
 
 /// The known surface round a hole, read on demand.
 pub(crate) struct SampledBand<'a> {
-    pub(crate) band: Band,
+    pub(crate) fits: QuadricFits<'a>,
     /// Mean length of the edges at the rim.
     pub(crate) step: f64,
     /// Edges of the polygon that bounds the patch.
@@ -54,19 +54,19 @@ pub(crate) struct SampledBand<'a> {
 }
 
 impl<'a> SampledBand<'a> {
-    /// Measures the noise; normals are computed when they are asked for. `band` belongs to `hole` or a part of its
+    /// Measures the noise; normals are computed when they are asked for. `fits` belongs to `hole` or a part of its
     /// surroundings, `step` is the mean edge length at its rim. Without `use_jets` normals are those of the triangles.
     pub(crate) fn new(
-        band: Band,
-        hole: &HoleShape,
+        fits: QuadricFits<'a>,
+        hole: &Hole,
         step: f64,
         use_jets: bool,
         job: &'a Job<'a>,
     ) -> Self {
-        let count = band.points.len();
-        let noise = band.noise(LAST_NOISE_LEVEL) / step;
+        let count = fits.around.points().len();
+        let noise = fits.noise(LAST_NOISE_LEVEL) / step;
         Self {
-            band,
+            fits,
             step,
             rim_edges: hole.polygon.len(),
             width: hole.width() / step,
@@ -110,13 +110,13 @@ impl<'a> SampledBand<'a> {
         let v = vertex as usize;
         let normal = *self.normals[v].get_or_insert_with(|| {
             if self.use_jets {
-                self.band.interpolating_normal(vertex)
+                self.fits.interpolating_normal(vertex)
             } else {
-                self.band.triangle_normals[v]
+                self.fits.normals[v]
             }
         });
         Sample {
-            point: self.band.points[v],
+            point: self.fits.around.point(vertex),
             normal,
         }
     }
@@ -129,7 +129,7 @@ impl<'a> SampledBand<'a> {
         {
             return sample;
         }
-        let sample = match self.band.smoothed(vertex, rings) {
+        let sample = match self.fits.smoothed(vertex, rings) {
             Some(s) => Sample {
                 point: s.point,
                 normal: s.normal,
@@ -157,15 +157,13 @@ impl<'a> SampledBand<'a> {
     }
 
     fn spread_anew(&self, levels: Range<u32>, most: usize) -> Result<Vec<u32>> {
-        let mut vertices = self.band.vertices_in(levels);
-        vertices.retain(|&v| self.band.triangle_normals[v as usize] != Vec3::zeros());
+        let mut vertices = self.fits.around.vertices_in(levels);
+        vertices.retain(|&v| self.fits.normals[v as usize] != Vec3::zeros());
         if vertices.is_empty() {
             return Ok(vertices);
         }
-        let points: Vec<Vec3> = vertices
-            .iter()
-            .map(|&v| self.band.points[v as usize])
-            .collect();
+        let point = |&v: &u32| self.fits.around.point(v);
+        let points: Vec<Vec3> = vertices.iter().map(point).collect();
         let middle = points.iter().sum::<Vec3>() / points.len() as f64;
         let mut reach: Vec<f64> = points.iter().map(|p| (p - middle).norm_squared()).collect();
         let closest = (CLOSEST * self.step).powi(2);

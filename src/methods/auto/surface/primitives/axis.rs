@@ -1,5 +1,6 @@
 //! The axis of a primitive, and what the normals of samples say about it.
 
+use crate::math::frame::axes_across;
 use crate::math::{Vec3, unit};
 use crate::methods::auto::surface::Sample;
 use nalgebra::{Matrix3, SymmetricEigen};
@@ -26,7 +27,7 @@ impl Axis {
 
     /// Two unit vectors that make a right-handed frame with the direction.
     pub(super) fn across(&self) -> [Vec3; 2] {
-        across(&self.direction)
+        axes_across(&self.direction)
     }
 
     /// The axis turned by two small angles.
@@ -78,13 +79,6 @@ impl Revolved {
         let (distance, normal) = self.when_moved(&rotation.cross(&self.arm));
         (distance, normal + rotation.cross(&self.normal))
     }
-}
-
-/// Two unit vectors that make a right-handed frame with `direction`.
-pub(super) fn across(direction: &Vec3) -> [Vec3; 2] {
-    let least = direction.iamin();
-    let u = unit(direction.cross(&Vec3::ith(least, 1.0)));
-    [u, direction.cross(&u)]
 }
 
 /// `1 / length`; zero where a surface has its focus and no direction counts.

@@ -22,7 +22,7 @@ use super::laplacian::{Coefficient, FairingDomain, Weights};
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::Vec3;
-use crate::math::adjacency::Rows;
+use crate::math::adjacency::CompressedRows;
 use crate::math::sparse::{SpdSolver, SymmetricMatrix};
 use crate::patch::PatchSurface;
 use crate::surroundings::Surroundings;
@@ -245,10 +245,11 @@ impl<'a> Operator<'a> {
     }
 
     /// The rows of `L` at the summed vertices, diagonal included, as far as they lie over interior vertices.
-    fn interior_rows(&self) -> Rows<Coefficient> {
+    fn interior_rows(&self) -> CompressedRows<Coefficient> {
         let domain = self.domain;
         let interior = domain.rim_count..domain.patch_count;
-        let mut rows = Rows::with_capacity(domain.vertex_count(), USUAL_ROW * interior.len());
+        let mut rows =
+            CompressedRows::with_capacity(domain.vertex_count(), USUAL_ROW * interior.len());
         for (r, is_summed) in self.is_summed.iter().enumerate() {
             let row = if *is_summed { domain.row(r) } else { &[] };
             let (before, behind) = row.split_at(row.partition_point(|e| (e.column as usize) < r));

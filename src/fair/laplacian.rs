@@ -8,7 +8,7 @@
 
 use crate::error::Result;
 use crate::job::Job;
-use crate::math::adjacency::Rows;
+use crate::math::adjacency::CompressedRows;
 use crate::math::{Vec3, cross_normal};
 use crate::patch::PatchSurface;
 use crate::surroundings::Surroundings;
@@ -54,7 +54,7 @@ pub(crate) struct FairingDomain {
     pub(crate) triangles: Vec<[u32; 3]>,
     /// 0 for rim and interior vertices, the ring for those of the surroundings.
     pub(crate) levels: Vec<u32>,
-    rows: Rows<Coefficient>,
+    rows: CompressedRows<Coefficient>,
     /// Area of each vertex.
     pub(crate) areas: Vec<f64>,
     /// Where the Laplacian is a quadratic form, whether negative weights count.
@@ -107,7 +107,7 @@ impl FairingDomain {
         let mut domain = Self {
             rim_count,
             patch_count,
-            rows: Rows::with_capacity(0, 0),
+            rows: CompressedRows::with_capacity(0, 0),
             areas: vec![0.0; points.len()],
             has_negative: weights == Weights::Voronoi,
             is_complete: vec![true; points.len()],
@@ -143,7 +143,7 @@ impl FairingDomain {
         let count = self.vertex_count();
         // Row and half of the weight of each edge, for either direction, by column.
         let ends = self.triangles.as_flattened().iter().flat_map(|&v| [v, v]);
-        let mut by_column = Rows::with_room(count, ends, (0_u32, 0.0));
+        let mut by_column = CompressedRows::with_room(count, ends, (0_u32, 0.0));
         job.ask()?;
         for t in &self.triangles {
             job.tick(3)?;
@@ -175,7 +175,7 @@ impl FairingDomain {
         }
         // Nearly every edge has two triangles.
         let room = 3 * self.triangles.len() + self.rim_count;
-        self.rows = Rows::with_capacity(count, room);
+        self.rows = CompressedRows::with_capacity(count, room);
         for v in 0..count {
             job.tick(3)?;
             let row = half_edges.of(v as u32);

@@ -110,7 +110,7 @@ impl<'a> Watch<'a> {
                 if self.stop.load(Ordering::Relaxed) == OUT_OF_TIME =>
             {
                 let message = format!("the time budget of {budget} s ran out");
-                Error::new(ErrorKind::Limit, message)
+                Error::limit(message)
             }
             _ => error,
         }

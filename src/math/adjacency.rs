@@ -7,18 +7,18 @@
 //!             row 0    row 1    row 2
 //! ```
 //!
-//! Rows are counted, then filled: two passes over what they hold, no sorting and no allocation for each row. Where items
+//! CompressedRows are counted, then filled: two passes over what they hold, no sorting and no allocation for each row. Where items
 //! come row after row, they are simply appended.
 
 /// Items by rows.
 #[derive(Clone, Debug)]
-pub(crate) struct Rows<T> {
+pub(crate) struct CompressedRows<T> {
     /// Where each row starts; once more, where the last one ends.
     starts: Vec<u32>,
     items: Vec<T>,
 }
 
-impl<T> Rows<T> {
+impl<T> CompressedRows<T> {
     /// No row yet, with memory for `rows` of them and as many items.
     pub(crate) fn with_capacity(rows: usize, items: usize) -> Self {
         let mut starts = Vec::with_capacity(rows + 1);
@@ -42,7 +42,7 @@ impl<T> Rows<T> {
     }
 }
 
-impl<T: Copy> Rows<T> {
+impl<T: Copy> CompressedRows<T> {
     /// `count` rows with room for as many items as `rows` names them. All places must be filled by
     /// [`push`](Self::push) before a row is read; until then they hold `blank`.
     pub(crate) fn with_room(count: usize, rows: impl Iterator<Item = u32>, blank: T) -> Self {
@@ -59,10 +59,10 @@ impl<T: Copy> Rows<T> {
         }
     }
 
-    /// Rows as long as these when they are full, to be filled in the same way.
-    pub(crate) fn with_same_room<U: Copy>(&self, blank: U) -> Rows<U> {
+    /// CompressedRows as long as these when they are full, to be filled in the same way.
+    pub(crate) fn with_same_room<U: Copy>(&self, blank: U) -> CompressedRows<U> {
         let count = self.starts.len() - 1;
-        Rows {
+        CompressedRows {
             starts: std::iter::once(0)
                 .chain(self.starts[..count].iter().copied())
                 .collect(),
@@ -78,7 +78,7 @@ impl<T: Copy> Rows<T> {
     }
 }
 
-impl Rows<u32> {
+impl CompressedRows<u32> {
     /// The two other corners of each triangle at each of `count` vertices, triangle after triangle: vertices on a common
     /// edge of two triangles occur twice.
     pub(crate) fn corners(triangles: &[[u32; 3]], count: usize) -> Self {
@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn corners_come_triangle_after_triangle() {
-        let rows = Rows::corners(&[[0, 1, 2], [2, 1, 4]], 5);
+        let rows = CompressedRows::corners(&[[0, 1, 2], [2, 1, 4]], 5);
         let all: Vec<&[u32]> = (0..5).map(|v| rows.of(v)).collect();
         let expected: [&[u32]; 5] = [&[1, 2], &[2, 0, 4, 2], &[0, 1, 1, 4], &[], &[2, 1]];
         assert_eq!(all, expected);
@@ -142,7 +142,7 @@ mod tests {
     proptest! {
         #[test]
         fn rows_hold_what_was_put_in(pairs in proptest::collection::vec((0..9_u32, 0..5_u32), 0..60)) {
-            let mut rows = Rows::with_room(9, pairs.iter().map(|p| p.0), 0);
+            let mut rows = CompressedRows::with_room(9, pairs.iter().map(|p| p.0), 0);
             pairs.iter().for_each(|&(row, item)| rows.push(row, item));
             let mut again = rows.with_same_room(0);
             pairs.iter().for_each(|&(row, item)| again.push(row, item));

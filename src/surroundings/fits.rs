@@ -14,7 +14,7 @@
 use super::Surroundings;
 use crate::error::Result;
 use crate::job::Job;
-use crate::math::adjacency::Rows;
+use crate::math::adjacency::CompressedRows;
 use crate::math::frame::axes_across;
 use crate::math::{Vec3, unit};
 use nalgebra::{SMatrix, SVector, SymmetricEigen};
@@ -46,7 +46,7 @@ pub(crate) struct QuadricFits<'a> {
     pub(crate) around: &'a Surroundings,
     /// Those of the triangles, see [`Surroundings::normals`].
     pub(crate) normals: &'a [Vec3],
-    neighbors: &'a Rows<u32>,
+    neighbors: &'a CompressedRows<u32>,
 }
 
 /// The surface near a vertex as a smoothing fit sees it.

@@ -4,7 +4,7 @@ pub(crate) mod fits;
 
 use crate::error::Result;
 use crate::job::Job;
-use crate::math::adjacency::Rows;
+use crate::math::adjacency::CompressedRows;
 use crate::math::{Vec3, cross_normal, unit};
 use std::sync::OnceLock;
 
@@ -18,7 +18,7 @@ pub(crate) struct Surroundings {
     levels: Vec<u32>,
     triangles: Vec<[u32; 3]>,
     normals: OnceLock<Vec<Vec3>>,
-    neighbors: OnceLock<Rows<u32>>,
+    neighbors: OnceLock<CompressedRows<u32>>,
 }
 
 impl Surroundings {
@@ -159,10 +159,10 @@ impl Surroundings {
     ///
     /// # Errors
     /// [`crate::ErrorKind::Cancelled`] when the job is stopped.
-    pub(crate) fn neighbors(&self, job: &Job<'_>) -> Result<&Rows<u32>> {
+    pub(crate) fn neighbors(&self, job: &Job<'_>) -> Result<&CompressedRows<u32>> {
         once(&self.neighbors, || {
             job.ask()?;
-            let corners = Rows::corners(&self.triangles, self.points.len());
+            let corners = CompressedRows::corners(&self.triangles, self.points.len());
             job.ask()?;
             let neighbors = corners.sorted();
             job.ask()?;

@@ -9,7 +9,7 @@ use crate::fill::cut::MeshPlace;
 use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::Vec3;
-use crate::math::adjacency::Rows;
+use crate::math::adjacency::CompressedRows;
 use crate::patch::PatchSurface;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -24,7 +24,7 @@ pub(super) fn nearest_rim_vertices(
     job: &Job<'_>,
 ) -> Result<Vec<u32>> {
     let count = surface.points.len();
-    let neighbors = Rows::corners(&surface.triangles, count);
+    let neighbors = CompressedRows::corners(&surface.triangles, count);
     job.ask()?;
     let mut fronts = Fronts::new(count);
     for v in 0..surface.rim_count as u32 {

@@ -180,7 +180,7 @@ impl<'a> HeightField<'a> {
                 "{} samples of a fit to {count} points are too many",
                 places.len()
             );
-            return Err(Error::new(ErrorKind::Limit, message));
+            return Err(Error::limit(message));
         }
         let fit = MovingFit {
             points: &self.uv,
@@ -257,17 +257,17 @@ impl Projection {
         if turned > FOLDED_SHARE * all {
             let share = (100.0 * turned / all).round();
             let message = format!("{share} % of the vicinity are folded over in {onto}");
-            return Err(Error::new(ErrorKind::Geometry, message));
+            return Err(Error::geometry(message));
         }
         for of_loop in loops {
             let polygon: Vec<Point2> = of_loop.iter().map(|&v| places[v as usize].uv).collect();
             if polygon.iter().flatten().any(|x| !x.is_finite()) {
                 let message = format!("the rim has no place in {onto}");
-                return Err(Error::new(ErrorKind::Geometry, message));
+                return Err(Error::geometry(message));
             }
             if let Some((i, j)) = find_contact(&polygon, job)? {
                 let message = format!("edges {i} and {j} of the rim meet in {onto}");
-                return Err(Error::new(ErrorKind::Geometry, message));
+                return Err(Error::geometry(message));
             }
         }
         Ok(Self {

@@ -1,6 +1,6 @@
 //! The known points near a rim, through which the height field is fitted.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::Vec3;
@@ -24,7 +24,7 @@ impl Vicinity {
     /// so far.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] when the triangles at the rim have no area; [`ErrorKind::Cancelled`].
+    /// [`crate::ErrorKind::Geometry`] when the triangles at the rim have no area; [`crate::ErrorKind::Cancelled`].
     pub(crate) fn new(
         hole: &Hole,
         surroundings: &Surroundings,
@@ -34,7 +34,7 @@ impl Vicinity {
         let step = hole.surroundings.sampling_step();
         if !(step.is_finite() && step > 0.0) {
             let message = "the triangles at the rim have no area to take a sampling step from";
-            return Err(Error::new(ErrorKind::Geometry, message));
+            return Err(Error::geometry(message));
         }
         let polygon = &hole.polygon;
         let edges = (0..polygon.len())
@@ -71,7 +71,7 @@ impl Vicinity {
 /// as rim vertices. Bridges between them are left out.
 ///
 /// # Errors
-/// [`ErrorKind::Topology`] when two of them share a vertex.
+/// [`crate::ErrorKind::Topology`] when two of them share a vertex.
 pub(crate) fn rim_loops(hole: &Hole) -> Result<Vec<Vec<u32>>> {
     let m = hole.polygon.len();
     let edge = |i: usize| (hole.polygon[i], hole.polygon[(i + 1) % m]);
@@ -83,7 +83,7 @@ pub(crate) fn rim_loops(hole: &Hole) -> Result<Vec<Vec<u32>>> {
     for (a, b) in edges.iter().copied().filter(|e| !is_bridge(e)) {
         if next[a as usize].replace(b).is_some() {
             let message = "an island touches the rim in a vertex";
-            return Err(Error::new(ErrorKind::Topology, message));
+            return Err(Error::topology(message));
         }
     }
     let mut loops = Vec::new();

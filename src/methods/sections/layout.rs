@@ -9,7 +9,7 @@ use super::base_points::BasePoint;
 use super::rim::Rim;
 use super::section::Section;
 use super::segmentation::{Plane, fit_plane};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::math::{Vec3, unit};
 
 /// The least distance between two sections laid side by side, and the least height of the ends, in mean edge
@@ -70,7 +70,7 @@ impl Scene<'_> {
     /// round the line in which they meet until they are one.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] when the planes do not meet or the parts lie on the wrong sides of the line.
+    /// [`crate::ErrorKind::Geometry`] when the planes do not meet or the parts lie on the wrong sides of the line.
     pub(super) fn on_two_planes(&self, fold: usize) -> Result<Layout> {
         let n = self.base.len();
         let is_far = |place: f64| place >= fold as f64 && place <= (n - 1 - fold) as f64;
@@ -303,5 +303,5 @@ fn meeting_point(a: &Plane, b: &Plane, cross: &Vec3) -> Vec3 {
 }
 
 fn refusal(message: &str) -> Error {
-    Error::new(ErrorKind::Geometry, message)
+    Error::geometry(message)
 }

@@ -30,7 +30,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::Vec3;
-use crate::math::adjacency::Rows;
+use crate::math::adjacency::CompressedRows;
 use crate::patch::PatchSurface;
 use crate::surroundings::Surroundings;
 use crate::surroundings::fits::QuadricFits;
@@ -166,7 +166,7 @@ fn denoised(hole: &Hole, steps: usize, job: &Job<'_>) -> Result<Surroundings> {
     let m = hole.polygon.len();
     let mut points = around.points().to_vec();
     let along = (0..m).map(|i| [hole.polygon[i], hole.polygon[(i + 1) % m]]);
-    let rim = Rows::neighbors(along, points.len());
+    let rim = CompressedRows::neighbors(along, points.len());
     let outermost = levels.iter().copied().max().unwrap_or(0);
     let is_inner = |v: usize| v >= rim_count && levels[v] < outermost;
     smooth(&mut points, &rim, |v| v < rim_count, steps);
@@ -188,7 +188,7 @@ fn finish(
     if options.smoothing {
         let triangles: Vec<[u32; 3]> = editor.triangles().collect();
         let points = editor.points_mut();
-        let neighbors = Rows::corners(&triangles, points.len()).sorted();
+        let neighbors = CompressedRows::corners(&triangles, points.len()).sorted();
         smooth(points, &neighbors, |v| v >= m, options.smoothing_steps);
     }
     editor.collapse_short(options.shortest_edge * rim.edge_length);
@@ -221,7 +221,7 @@ fn triangulated<'a>(
         let message = format!(
             "the projection is not one to one: {outside} of {all} predicted points fall outside the rim"
         );
-        return Err(Error::new(ErrorKind::Geometry, message));
+        return Err(Error::geometry(message));
     }
     for _ in 0..MOST_ROUNDS {
         let inside: Vec<[f64; 2]> = predicted.iter().map(|p| p.1).collect();
@@ -260,5 +260,5 @@ fn triangulated<'a>(
 
 fn folded(count: usize) -> Error {
     let message = format!("the patch is folded along {count} edges");
-    Error::new(ErrorKind::Geometry, message)
+    Error::geometry(message)
 }

@@ -1,6 +1,6 @@
 //! The rim as the steps of HPDE read it.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::hole::Hole;
 use crate::math::{Vec3, unit};
 
@@ -64,7 +64,7 @@ impl Rim {
 /// Refuses holes with islands and rims that pass a vertex twice: sections need one simple curve.
 ///
 /// # Errors
-/// [`ErrorKind::Topology`].
+/// [`crate::ErrorKind::Topology`].
 pub(super) fn check_simple(hole: &Hole) -> Result<()> {
     let mut seen = vec![false; hole.rim().len()];
     let is_simple = hole.polygon.len() == hole.rim().len()
@@ -75,8 +75,7 @@ pub(super) fn check_simple(hole: &Hole) -> Result<()> {
     if is_simple {
         return Ok(());
     }
-    Err(Error::new(
-        ErrorKind::Topology,
+    Err(Error::topology(
         "the hole has an island or a vertex that its rim passes twice, which HPDE cannot section",
     ))
 }
@@ -84,14 +83,11 @@ pub(super) fn check_simple(hole: &Hole) -> Result<()> {
 /// The normals of the known triangles along the rim; where one has no area, that of the nearest one before it.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] if none has an area.
+/// [`crate::ErrorKind::Geometry`] if none has an area.
 pub(super) fn edge_normals(hole: &Hole) -> Result<Vec<Vec3>> {
     let m = hole.polygon.len();
     let Some(first) = hole.outside_normals.iter().position(Option::is_some) else {
-        return Err(Error::new(
-            ErrorKind::Geometry,
-            "no triangle along the rim has an area",
-        ));
+        return Err(Error::geometry("no triangle along the rim has an area"));
     };
     let mut normals = vec![Vec3::zeros(); m];
     let mut last = Vec3::zeros();

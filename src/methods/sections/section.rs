@@ -7,7 +7,7 @@ use super::arcs::Arc;
 use super::base_points::{BasePoint, rim_direction};
 use super::correspondences::Correspondence;
 use super::options::SectionOptions;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::math::{Vec3, unit};
 
 /// Arcs that rise or fall more steeply than this at their ends, in radians, go almost once round their circle:
@@ -71,7 +71,7 @@ pub(super) struct Section {
 /// Finds the section of each pair that has one, with its arcs and its number of points.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] when the arcs of most sections are out of reach; [`ErrorKind::Limit`] for more than
+/// [`crate::ErrorKind::Geometry`] when the arcs of most sections are out of reach; [`crate::ErrorKind::Limit`] for more than
 /// `most_points`.
 pub(super) fn prepare(
     base: &[BasePoint],
@@ -102,7 +102,7 @@ pub(super) fn prepare(
             "the surface leaves {out_of_reach} of {} sections too steeply for an arc",
             pairs.len()
         );
-        return Err(Error::new(ErrorKind::Geometry, message));
+        return Err(Error::geometry(message));
     }
     let longest = sections.iter().fold(0.0, |l: f64, s| l.max(s.arc_length()));
     // Equation 15.
@@ -114,7 +114,7 @@ pub(super) fn prepare(
     }
     if sum > most_points {
         let message = format!("the patch would need more than {most_points} new vertices");
-        return Err(Error::new(ErrorKind::Limit, message));
+        return Err(Error::limit(message));
     }
     Ok(sections)
 }
@@ -122,7 +122,7 @@ pub(super) fn prepare(
 /// The sections with their points, but for those that are not between their neighbours.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] when most sections cross.
+/// [`crate::ErrorKind::Geometry`] when most sections cross.
 pub(super) fn assemble(
     prepared: &[Prepared],
     predicted: Predicted,
@@ -207,7 +207,7 @@ fn leave_out_crossing(sections: &mut [Section], edge_length: f64) -> Result<()> 
     if crossing as f64 > MOST_CROSSING * all as f64 {
         let message =
             format!("the section planes cross: {crossing} of {all} points are out of order");
-        return Err(Error::new(ErrorKind::Geometry, message));
+        return Err(Error::geometry(message));
     }
     Ok(())
 }

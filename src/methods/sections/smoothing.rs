@@ -6,7 +6,7 @@
 //! Not guaranteed: that a curved surface keeps its place exactly; waves longer than the pass band stay.
 
 use crate::math::Vec3;
-use crate::math::adjacency::Rows;
+use crate::math::adjacency::CompressedRows;
 
 /// Taubin's factors: a Gaussian step, then one back. Their pass band, `1/λ + 1/μ`, is 0.1.
 const LAMBDA: f64 = 0.5;
@@ -15,7 +15,7 @@ const MU: f64 = -LAMBDA / (1.0 - 0.1 * LAMBDA);
 /// Smooths the points for which `is_free`, alternating the two kinds of step.
 pub(super) fn smooth(
     points: &mut [Vec3],
-    neighbors: &Rows<u32>,
+    neighbors: &CompressedRows<u32>,
     is_free: impl Fn(usize) -> bool,
     steps: usize,
 ) {

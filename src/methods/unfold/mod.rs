@@ -16,7 +16,7 @@ use super::method::Method;
 use super::spec::MethodSpec;
 use super::start::{refine, sizes_at_rim};
 use super::task::Task;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::fair::kharmonic::{Order, fair};
 use crate::fair::laplacian::Weights;
 use crate::math::Vec3;
@@ -61,8 +61,8 @@ const RELAXATIONS: usize = 5;
 /// The embedded patch, refined and shaped.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidInput`] for a rim with islands, [`ErrorKind::Knotted`] for one that was not unfolded;
-/// those of triangulation, refinement and fairing; [`ErrorKind::Cancelled`].
+/// [`crate::ErrorKind::InvalidInput`] for a rim with islands, [`crate::ErrorKind::Knotted`] for one that was not unfolded;
+/// those of triangulation, refinement and fairing; [`crate::ErrorKind::Cancelled`].
 fn shaped(task: &Task<'_>, order: Order, weights: Weights) -> Result<PatchSurface> {
     let mut surface = task.once(|| Embedded(embed(task))).0?;
     let mut sizes = sizes_at_rim(task, &surface)?;
@@ -86,8 +86,7 @@ struct Embedded(Result<PatchSurface>);
 fn embed(task: &Task<'_>) -> Result<PatchSurface> {
     let hole = task.hole;
     if hole.polygon.len() != hole.rim().len() {
-        return Err(Error::new(
-            ErrorKind::InvalidInput,
+        return Err(Error::invalid(
             "a rim with islands is not one curve that could be unfolded",
         ));
     }

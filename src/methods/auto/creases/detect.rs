@@ -11,7 +11,7 @@
 //! `O(n log n)` for `n` known triangles.
 
 use super::facets::{Facets, SharedEdge};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::{Vec3, unit};
@@ -60,7 +60,7 @@ pub(crate) struct CreaseEnd {
 /// Finds the regions round the hole; `None` when nothing but smooth surface surrounds it.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] when there are creases that cannot be used, with the reason; [`ErrorKind::Cancelled`].
+/// [`crate::ErrorKind::Geometry`] when there are creases that cannot be used, with the reason; [`crate::ErrorKind::Cancelled`].
 pub(crate) fn detect(hole: &Hole, job: &Job<'_>) -> Result<Option<Regions>> {
     job.ask()?;
     let mut facets = Facets::new(hole);
@@ -102,7 +102,7 @@ pub(crate) fn detect(hole: &Hole, job: &Job<'_>) -> Result<Option<Regions>> {
 }
 
 fn unusable<T>(reason: &str) -> Result<T> {
-    Err(Error::new(ErrorKind::Geometry, reason.to_owned()))
+    Err(Error::geometry(reason.to_owned()))
 }
 
 /// The angle from which on an edge is a crease.

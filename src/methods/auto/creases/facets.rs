@@ -8,7 +8,7 @@
 use crate::error::Result;
 use crate::hole::Hole;
 use crate::job::Job;
-use crate::math::adjacency::Rows;
+use crate::math::adjacency::CompressedRows;
 use crate::math::{Vec3, cross_normal, unit};
 use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD, origin, target};
 use crate::mesh::pairing::pair_halfedges;
@@ -151,7 +151,7 @@ impl<'a> Facets<'a> {
     fn neighbors(&self, job: &Job<'_>) -> Result<Vec<Vec<u32>>> {
         let count = self.hole.surroundings.points().len();
         let corners = self.triangles().as_flattened();
-        let mut at_vertex = Rows::with_room(count, corners.iter().copied(), 0);
+        let mut at_vertex = CompressedRows::with_room(count, corners.iter().copied(), 0);
         for (corner, &v) in (0_u32..).zip(corners) {
             job.tick(3)?;
             at_vertex.push(v, corner / 3);

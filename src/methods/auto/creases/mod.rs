@@ -16,7 +16,7 @@ use super::march::Marcher;
 use super::surface::Implicit;
 use super::surface::candidates::Candidate;
 use super::surface::samples::SampledBand;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::fair::kharmonic::Order;
 use crate::hole::Hole;
 use crate::math::{Vec3, unit};
@@ -60,8 +60,8 @@ impl Creases<'_> {
     /// The patch that continues the creases; `None` when there are none.
     ///
     /// # Errors
-    /// Why creases that were found are not used: [`ErrorKind::Geometry`] and those of the steps;
-    /// [`ErrorKind::Cancelled`].
+    /// Why creases that were found are not used: [`crate::ErrorKind::Geometry`] and those of the steps;
+    /// [`crate::ErrorKind::Cancelled`].
     pub(super) fn patch(&self) -> Result<Option<CreasePatch>> {
         let Some(mut regions) = detect(self.task.hole, self.task.job)? else {
             return Ok(None);
@@ -249,7 +249,7 @@ impl Creases<'_> {
 }
 
 fn unusable<T>(reason: &str) -> Result<T> {
-    Err(Error::new(ErrorKind::Geometry, reason.to_owned()))
+    Err(Error::geometry(reason.to_owned()))
 }
 
 /// The geometric mean of the regions' scores, each as often as it has rim edges; zero when no region is large

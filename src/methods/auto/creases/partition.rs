@@ -14,7 +14,7 @@
 //! that were there.
 
 use super::intersection::{IntersectionCurve, corner};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::hole::Hole;
 use crate::math::Vec3;
 use crate::methods::auto::creases::detect::Regions;
@@ -59,7 +59,7 @@ pub(crate) struct Face {
 /// Cuts the hole along the creases in which the `surfaces` of the regions meet.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] when there are too many creases or they do not meet inside the hole.
+/// [`crate::ErrorKind::Geometry`] when there are too many creases or they do not meet inside the hole.
 pub(crate) fn partition(
     hole: &Hole,
     regions: &Regions,
@@ -95,7 +95,7 @@ pub(crate) fn partition(
 }
 
 fn failed<T>(reason: &str) -> Result<T> {
-    Err(Error::new(ErrorKind::Geometry, reason.to_owned()))
+    Err(Error::geometry(reason.to_owned()))
 }
 
 #[derive(Clone, Copy, Debug)]

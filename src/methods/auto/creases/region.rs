@@ -4,7 +4,7 @@
 //! bend normals and fits. A region with too few vertices to choose is continued by a plane if it is one, else
 //! by the function that interpolates it.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::hole::Hole;
 use crate::job::Job;
 use crate::methods::auto::creases::detect::Regions;
@@ -55,7 +55,7 @@ fn region_of(around: &Surroundings, faces: &[u32]) -> Surroundings {
 /// may be used.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] when a region is too small; [`ErrorKind::Cancelled`].
+/// [`crate::ErrorKind::Geometry`] when a region is too small; [`crate::ErrorKind::Cancelled`].
 pub(crate) fn fit_regions(
     hole: &Hole,
     regions: &Regions,
@@ -92,7 +92,7 @@ fn fit_small(samples: &mut SampledBand) -> Result<RegionSurface> {
     let vertices = samples.spread(0..FITTED_RINGS + 1, MOST_VERTICES)?;
     if vertices.len() < FEWEST_VERTICES {
         let reason = "the region beside a crease is too small";
-        return Err(Error::new(ErrorKind::Geometry, reason.to_owned()));
+        return Err(Error::geometry(reason.to_owned()));
     }
     let chosen: Vec<Sample> = vertices.iter().map(|&v| samples.sample(v)).collect();
     let limit = samples.step * PLANE_DISTANCE.max(PLANE_NOISE * samples.noise);
@@ -106,12 +106,9 @@ fn fit_small(samples: &mut SampledBand) -> Result<RegionSurface> {
         });
     }
     let candidate = Candidate::Cubic;
-    let surface = candidate.fit_samples(&chosen).ok_or_else(|| {
-        Error::new(
-            ErrorKind::Geometry,
-            "no surface fits a region beside a crease".to_owned(),
-        )
-    })?;
+    let surface = candidate
+        .fit_samples(&chosen)
+        .ok_or_else(|| Error::geometry("no surface fits a region beside a crease"))?;
     Ok(RegionSurface {
         candidate,
         surface,

@@ -3,7 +3,7 @@
 //! The known triangle at a rim edge tells which region the patch continues there, unless the edge lies on a crease
 //! itself: then the patch continues the region on the other side.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::hole::Hole;
 use crate::math::unit;
 use crate::methods::auto::creases::detect::Regions;
@@ -18,7 +18,7 @@ const ALONG: f64 = 0.7;
 /// Moves each end along the rim for as long as both surfaces do.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] when nothing is left of a region.
+/// [`crate::ErrorKind::Geometry`] when nothing is left of a region.
 pub(crate) fn slide_ends(
     hole: &Hole,
     regions: &mut Regions,
@@ -62,6 +62,6 @@ pub(crate) fn slide_ends(
         Ok(())
     } else {
         let reason = "a region beside a crease ends at the rim";
-        Err(Error::new(ErrorKind::Geometry, reason.to_owned()))
+        Err(Error::geometry(reason.to_owned()))
     }
 }

@@ -27,6 +27,7 @@ mod fill;
 #[cfg(test)]
 #[path = "../tests/common/meshes.rs"]
 mod fixtures;
+mod hole;
 #[cfg(feature = "io")]
 pub mod io;
 mod job;
@@ -45,10 +46,9 @@ pub use boundary::boundary_loop::{BoundaryLoop, LoopClass};
 pub use boundary::loops::BoundaryLoops;
 pub use boundary::select::Selection;
 pub use error::{Error, ErrorKind, Result};
-pub use fill::pipeline::fill_holes;
 pub use fill::progress::{Progress, ProgressCallback};
 pub use fill::report::{Attempt, FillReport, HoleReport, HoleStatus};
-pub use fill::session::{FillPlan, FillSession, PlannedPatch, Target};
+pub use fill::session::{FillPlan, FillSession, PlannedPatch, Target, fill_holes};
 pub use mesh::attributes::{
     Attribute, AttributeValues, Attributes, ListValues, ScalarType, ScalarValues,
 };

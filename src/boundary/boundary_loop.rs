@@ -41,6 +41,17 @@ impl LoopClass {
             Self::OpenChain => "open-chain",
         }
     }
+
+    /// Why no patch can be made for a loop of this kind.
+    pub(crate) fn unfillable_reason(self) -> Option<&'static str> {
+        match self {
+            Self::NotOriented => Some("the triangles along the loop are not oriented alike"),
+            Self::OpenChain => Some(
+                "the boundary does not close: it runs into an edge with more than two triangles",
+            ),
+            _ => None,
+        }
+    }
 }
 
 impl fmt::Display for LoopClass {

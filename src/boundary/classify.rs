@@ -4,6 +4,7 @@ use super::boundary_loop::{BoundaryLoop, LoopClass};
 use crate::job::Job;
 use crate::math::aabb::Aabb;
 use crate::math::box_tree::BoxTree;
+use crate::math::frame::axes_across;
 use crate::math::{Vec3, cross_normal, unit};
 use crate::mesh::halfedge::{BOUNDARY, DEGENERATE};
 use crate::mesh::trimesh::TriMesh;
@@ -145,8 +146,7 @@ fn spans_over(mesh: &TriMesh, host: &BoundaryLoop, island: &BoundaryLoop) -> boo
         return false;
     }
     let across = unit(area);
-    let right = unit(across.cross(&Vec3::ith(across.iamin(), 1.0)));
-    let up = across.cross(&right);
+    let [right, up] = axes_across(&across);
     let project = |&v: &u32| {
         let p = mesh.point(v);
         [p.dot(&right), p.dot(&up)]

@@ -4,6 +4,7 @@ pub(crate) mod boundary_loop;
 mod classify;
 pub(crate) mod linked;
 pub(crate) mod loops;
+pub(crate) mod opening;
 pub(crate) mod select;
 
 #[cfg(test)]

@@ -26,9 +26,11 @@ use super::laplacian::{Coefficient, FairingDomain, Weights};
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::Vec3;
+use crate::math::adjacency::CompressedRows;
 use crate::math::sparse::SpdSolver;
 use crate::math::symmetric::SymmetricMatrix;
-use crate::patch::{PatchSurface, Surroundings};
+use crate::patch::PatchSurface;
+use crate::surroundings::Surroundings;
 
 /// Order of the energy, which is the number of rings of triangles that it reads plus one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -248,28 +250,21 @@ impl<'a> Operator<'a> {
     }
 
     /// The rows of `L` at the summed vertices, with the diagonal, restricted to interior columns.
-    fn interior_rows(&self) -> Rows {
+    fn interior_rows(&self) -> CompressedRows<Coefficient> {
         let domain = self.domain;
         let interior = domain.rim_count..domain.patch_count;
-        let mut rows = Rows {
-            starts: Vec::with_capacity(domain.vertex_count() + 1),
-            entries: Vec::with_capacity(USUAL_ROW * interior.len()),
-        };
-        rows.starts.push(0);
+        let mut rows =
+            CompressedRows::with_capacity(domain.vertex_count(), USUAL_ROW * interior.len());
         for (r, is_summed) in self.is_summed.iter().enumerate() {
-            if *is_summed {
-                let row = domain.row(r);
-                let (before, behind) =
-                    row.split_at(row.partition_point(|e| (e.column as usize) < r));
-                let diagonal = Coefficient {
-                    column: r as u32,
-                    weight: -row.iter().map(|e| e.weight).sum::<f64>(),
-                };
-                let whole = before.iter().chain([&diagonal]).chain(behind);
-                let inside = whole.filter(|e| interior.contains(&(e.column as usize)));
-                rows.entries.extend(inside);
-            }
-            rows.starts.push(rows.entries.len() as u32);
+            let row = if *is_summed { domain.row(r) } else { &[] };
+            let (before, behind) = row.split_at(row.partition_point(|e| (e.column as usize) < r));
+            let diagonal = Coefficient {
+                column: r as u32,
+                weight: -row.iter().map(|e| e.weight).sum::<f64>(),
+            };
+            let whole = before.iter().chain([&diagonal]).chain(behind);
+            let inside = |e: &&Coefficient| *is_summed && interior.contains(&(e.column as usize));
+            rows.append(whole.filter(inside).copied());
         }
         rows
     }
@@ -312,19 +307,6 @@ fn membrane_equations(
         matrix.column_starts.push(matrix.rows.len() as u32);
     }
     Ok((matrix, right_side))
-}
-
-/// Sparse rows with ascending columns.
-struct Rows {
-    starts: Vec<u32>,
-    entries: Vec<Coefficient>,
-}
-
-impl Rows {
-    fn of(&self, row: u32) -> &[Coefficient] {
-        let r = row as usize;
-        &self.entries[self.starts[r] as usize..self.starts[r + 1] as usize]
-    }
 }
 
 struct Scratch {

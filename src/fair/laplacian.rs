@@ -10,8 +10,10 @@
 
 use crate::error::Result;
 use crate::job::Job;
+use crate::math::adjacency::CompressedRows;
 use crate::math::{Vec3, cross_normal};
-use crate::patch::{PatchSurface, Surroundings};
+use crate::patch::PatchSurface;
+use crate::surroundings::Surroundings;
 
 /// Upper bound on a cotangent, that of about half a degree. A larger one is mostly rounding error.
 const LARGEST_COTANGENT: f64 = 100.0;
@@ -53,8 +55,7 @@ pub(crate) struct FairingDomain {
     pub(crate) triangles: Vec<[u32; 3]>,
     /// 0 for rim and interior vertices, the ring for those of the surroundings.
     pub(crate) levels: Vec<u32>,
-    row_starts: Vec<u32>,
-    entries: Vec<Coefficient>,
+    rows: CompressedRows<Coefficient>,
     /// Area of each vertex.
     pub(crate) areas: Vec<f64>,
     /// Whether negative weights count in the Laplacian as a quadratic form.
@@ -83,7 +84,7 @@ impl FairingDomain {
             if (v as usize) < rim_count {
                 0
             } else {
-                surroundings.levels[v as usize - rim_count]
+                surroundings.levels()[v as usize]
             }
         };
         let ring_of = |t: &[u32; 3]| t.iter().map(|&v| level_of(v)).min().unwrap_or(0);
@@ -96,19 +97,18 @@ impl FairingDomain {
         };
         let mut triangles = surface.triangles.clone();
         let near = surroundings
-            .triangles
+            .triangles()
             .iter()
             .filter(|t| ring_of(t) < ring_count);
         triangles.extend(near.map(|t| t.map(global)));
         let mut points = surface.points.clone();
-        points.extend_from_slice(&surroundings.points);
+        points.extend_from_slice(surroundings.outer());
         let mut levels = vec![0; patch_count];
-        levels.extend_from_slice(&surroundings.levels);
+        levels.extend_from_slice(&surroundings.levels()[surroundings.rim().len()..]);
         let mut domain = Self {
             rim_count,
             patch_count,
-            row_starts: Vec::new(),
-            entries: Vec::new(),
+            rows: CompressedRows::with_capacity(0, 0),
             areas: vec![0.0; points.len()],
             has_negative: weights == Weights::Voronoi,
             is_complete: vec![true; points.len()],
@@ -128,7 +128,7 @@ impl FairingDomain {
 
     /// Off-diagonal entries of the row of `vertex`, with ascending columns; the diagonal is minus their sum.
     pub(crate) fn row(&self, vertex: usize) -> &[Coefficient] {
-        &self.entries[self.row_starts[vertex] as usize..self.row_starts[vertex + 1] as usize]
+        self.rows.of(vertex as u32)
     }
 
     /// The weight of an entry in the Laplacian as a quadratic form.
@@ -142,18 +142,9 @@ impl FairingDomain {
 
     fn assemble(&mut self, weights: Weights, job: &Job<'_>) -> Result<()> {
         let count = self.vertex_count();
-        let mut starts = vec![0_u32; count + 1];
-        for t in &self.triangles {
-            for &v in t {
-                starts[v as usize + 1] += 2;
-            }
-        }
-        for v in 0..count {
-            starts[v + 1] += starts[v];
-        }
-        // For each edge and both directions: row and half of the weight, sorted by column.
-        let mut slots = starts.clone();
-        let mut by_column = vec![(0_u32, 0.0); 6 * self.triangles.len()];
+        // Row and half of the weight of each edge, for either direction, by column.
+        let ends = self.triangles.as_flattened().iter().flat_map(|&v| [v, v]);
+        let mut by_column = CompressedRows::with_room(count, ends, (0_u32, 0.0));
         job.ask()?;
         for t in &self.triangles {
             job.tick(3)?;
@@ -166,56 +157,45 @@ impl FairingDomain {
             for k in 0..3 {
                 let (a, b) = (t[(k + 1) % 3], t[(k + 2) % 3]);
                 for (row, column) in [(a, b), (b, a)] {
-                    let slot = &mut slots[column as usize];
-                    by_column[*slot as usize] = (row, cotangents[k] / 2.0);
-                    *slot += 1;
+                    by_column.push(column, (row, cotangents[k] / 2.0));
                 }
                 self.areas[t[k] as usize] += areas[k];
             }
         }
         // Columns are taken in order, so the entries of each row are in ascending order.
-        slots.copy_from_slice(&starts);
         let zero = Coefficient {
             column: 0,
             weight: 0.0,
         };
-        let mut half_edges = vec![zero; by_column.len()];
-        for column in 0..count {
+        let mut half_edges = by_column.with_same_room(zero);
+        for column in 0..count as u32 {
             job.tick(3)?;
-            for &(row, weight) in &by_column[starts[column] as usize..starts[column + 1] as usize] {
-                let slot = &mut slots[row as usize];
-                half_edges[*slot as usize] = Coefficient {
-                    column: column as u32,
-                    weight,
-                };
-                *slot += 1;
+            for &(row, weight) in by_column.of(column) {
+                half_edges.push(row, Coefficient { column, weight });
             }
         }
         // Nearly every edge has two triangles.
-        self.entries.reserve(half_edges.len() / 2 + self.rim_count);
-        self.row_starts.reserve(count + 1);
-        self.row_starts.push(0);
+        let room = 3 * self.triangles.len() + self.rim_count;
+        self.rows = CompressedRows::with_capacity(count, room);
         for v in 0..count {
             job.tick(3)?;
-            let row = &half_edges[starts[v] as usize..starts[v + 1] as usize];
-            for same in row.chunk_by(|a, b| a.column == b.column) {
+            let row = half_edges.of(v as u32);
+            let entries = row.chunk_by(|a, b| a.column == b.column).map(|same| {
                 self.is_complete[v] &= same.len() == 2;
                 let weight = match weights {
                     Weights::Uniform | Weights::Umbrella => 1.0,
                     Weights::Cotangent | Weights::Voronoi => same.iter().map(|e| e.weight).sum(),
                 };
-                self.entries.push(Coefficient {
-                    column: same[0].column,
-                    weight,
-                });
-            }
-            self.row_starts.push(self.entries.len() as u32);
+                let column = same[0].column;
+                Coefficient { column, weight }
+            });
+            self.rows.append(entries);
         }
         match weights {
             Weights::Uniform => self.areas.fill(1.0),
             Weights::Umbrella => {
-                for (area, ends) in self.areas.iter_mut().zip(self.row_starts.windows(2)) {
-                    *area = f64::from(ends[1] - ends[0]).max(1.0);
+                for v in 0..count {
+                    self.areas[v] = (self.row(v).len() as f64).max(1.0);
                 }
             }
             Weights::Cotangent => {

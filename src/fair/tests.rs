@@ -6,7 +6,8 @@ use crate::fixtures::{self, Arrays, Noise};
 use crate::job::{Job, UNLIMITED};
 use crate::math::Vec3;
 use crate::math::sparse::SpdSolver;
-use crate::patch::{PatchSurface, Surroundings};
+use crate::patch::PatchSurface;
+use crate::surroundings::Surroundings;
 
 const ORDERS: [Order; 3] = [Order::One, Order::Two, Order::Three];
 const WEIGHTS: [Weights; 3] = [Weights::Uniform, Weights::Cotangent, Weights::Voronoi];
@@ -61,11 +62,15 @@ fn divided(mesh: &Arrays, is_patch: impl Fn([f64; 3]) -> bool) -> (PatchSurface,
         points: of_patch.iter().map(point).collect(),
         triangles: inner.iter().map(|t| t.map(|v| local[v as usize])).collect(),
     };
-    let surroundings = Surroundings {
-        points: around.iter().map(point).collect(),
-        levels: around.iter().map(|&v| level[v]).collect(),
-        triangles: near.map(|t| t.map(|v| local[v as usize])).collect(),
-    };
+    let surroundings = Surroundings::new(
+        rim.len(),
+        rim.iter().chain(&around).map(point).collect(),
+        rim.iter()
+            .map(|_| 0)
+            .chain(around.iter().map(|&v| level[v]))
+            .collect(),
+        near.map(|t| t.map(|v| local[v as usize])).collect(),
+    );
     (surface, surroundings)
 }
 

@@ -33,7 +33,7 @@ pub(crate) fn run_in_background<T: Send + 'static>(
     let started = thread::Builder::new()
         .name("holefill".to_owned())
         .spawn(run);
-    started.map_err(|e| Error::new(ErrorKind::Limit, format!("cannot start a thread: {e}")))?;
+    started.map_err(|e| Error::limit(format!("cannot start a thread: {e}")))?;
     loop {
         match receiver.recv_timeout(PERIOD) {
             Ok(result) => return Ok(result),

@@ -1,9 +1,11 @@
 //! Mathematics without meshes: vectors, planes, boxes, search trees, random numbers, linear solvers.
 
 pub(crate) mod aabb;
+pub(crate) mod adjacency;
 mod background;
 pub(crate) mod box_tree;
 mod envelope;
+pub(crate) mod frame;
 pub(crate) mod least_squares;
 pub(crate) mod plane;
 pub(crate) mod random;

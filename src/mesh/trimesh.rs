@@ -18,7 +18,7 @@ const VERTEX_CHUNK: usize = 1 << 14;
 /// Non-manifold edges, isolated vertices, duplicate and degenerate triangles, inconsistent orientation and several
 /// components are allowed. They are not repaired; [`TriMesh::defects`] lists the defects. Vertices and triangles are
 /// never changed, moved or reordered. Filling a hole only appends.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct TriMesh {
     positions: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,

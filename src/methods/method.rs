@@ -1,6 +1,6 @@
 //! The choices of users: the method, and the options of each method.
 
-use crate::error::{Error, ErrorKind};
+use crate::error::Error;
 use crate::options::entry::options;
 use std::fmt;
 use std::str::FromStr;
@@ -65,7 +65,7 @@ impl FromStr for Method {
                 "unknown method '{name}'; the methods are {}",
                 names.join(", ")
             );
-            Error::new(ErrorKind::InvalidInput, message)
+            Error::invalid(message)
         })
     }
 }

@@ -5,7 +5,8 @@ use super::task::Task;
 use crate::error::Result;
 use crate::math::Vec3;
 use crate::options::FillOptions;
-use crate::patch::{PatchSurface, Surroundings};
+use crate::patch::PatchSurface;
+use crate::surroundings::Surroundings;
 
 /// All that the rest of the library knows of a method.
 pub(crate) struct MethodSpec {

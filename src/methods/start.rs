@@ -47,7 +47,7 @@ pub(super) fn triangulated(
     let points: Vec<_> = hole
         .polygon
         .iter()
-        .map(|&v| hole.points[v as usize])
+        .map(|&v| hole.rim()[v as usize])
         .collect();
     let at = |position: usize| hole.polygon[position];
     let polygon = HolePolygon {
@@ -67,8 +67,8 @@ pub(super) fn triangulated(
         .iter()
         .map(|t| t.map(|position| at(position as usize)));
     Ok(PatchSurface {
-        rim_count: hole.points.len(),
-        points: hole.points.clone(),
+        rim_count: hole.rim().len(),
+        points: hole.rim().to_vec(),
         triangles: triangles.collect(),
     })
 }

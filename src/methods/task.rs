@@ -1,16 +1,16 @@
 //! [`Task`]: what a method is given. One task serves all methods that are tried on a hole.
 
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::options::FillOptions;
-use crate::patch::HoleShape;
 use std::any::Any;
 use std::cell::RefCell;
 
 /// The hole, the options, the job, and results about the hole that methods share.
 pub(crate) struct Task<'a> {
     /// The hole.
-    pub(crate) hole: &'a HoleShape,
-    /// The options that the user chose.
+    pub(crate) hole: &'a Hole,
+    /// What the user chose.
     pub(crate) options: &'a FillOptions,
     /// The job, which can be cancelled.
     pub(crate) job: &'a Job<'a>,
@@ -20,7 +20,7 @@ pub(crate) struct Task<'a> {
 
 impl<'a> Task<'a> {
     /// A task without results.
-    pub(crate) fn new(hole: &'a HoleShape, options: &'a FillOptions, job: &'a Job<'a>) -> Self {
+    pub(crate) fn new(hole: &'a Hole, options: &'a FillOptions, job: &'a Job<'a>) -> Self {
         Self {
             hole,
             options,

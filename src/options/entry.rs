@@ -14,7 +14,7 @@
 //! gives the public field `density`, the setter `RefinementOptions::density(self, f64)`, and an [`Entry`] with the name
 //! `density`. A struct that holds this one as a group `refine` has the entry `refine.density`.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use std::fmt;
 use std::ops::RangeInclusive;
 
@@ -189,7 +189,7 @@ impl<O> Entry<O> {
     /// Sets the option.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] for a value that is not allowed. The options are then unchanged.
+    /// [`crate::ErrorKind::InvalidInput`] for a value that is not allowed. The options are then unchanged.
     pub fn set(&self, options: &mut O, value: &str) -> Result<()> {
         if (self.read)(options, value) {
             Ok(())
@@ -215,13 +215,10 @@ impl<O> Entry<O> {
     }
 
     fn refusal(&self, value: &str) -> Error {
-        Error::new(
-            ErrorKind::InvalidInput,
-            format!(
-                "{} cannot be '{value}': it takes {}",
-                self.name, self.allowed
-            ),
-        )
+        Error::invalid(format!(
+            "{} cannot be '{value}': it takes {}",
+            self.name, self.allowed
+        ))
     }
 }
 

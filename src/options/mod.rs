@@ -5,7 +5,7 @@ pub(crate) mod entry;
 
 pub use attributes::{AttributeOptions, FilledAttributes, Interpolator};
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::methods::method::{Method, MethodOptions};
 use entry::{Entry, Options, options};
 use std::sync::LazyLock;
@@ -37,7 +37,7 @@ options! {
         join_islands: bool = true, in ();
         /// Seconds after which holes that are not finished are given up
         ///
-        /// Such holes fail with [`ErrorKind::Limit`] and are as they were. Which holes are finished in time depends on
+        /// Such holes fail with [`crate::ErrorKind::Limit`] and are as they were. Which holes are finished in time depends on
         /// the machine; a patch that is finished is the same as without a limit.
         time_budget: Option<f64> = None, in ("none", 0.0..=1e9);
     }
@@ -91,18 +91,15 @@ impl FillOptions {
     /// Sets the option `name` to `value`.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] for an unknown name (the message lists the known ones) or a value that
+    /// [`crate::ErrorKind::InvalidInput`] for an unknown name (the message lists the known ones) or a value that
     /// is not allowed (the message says which are). The options are then unchanged.
     pub fn set(&mut self, name: &str, value: &str) -> Result<()> {
         let parameter = Self::parameter(name).ok_or_else(|| {
             let names: Vec<&str> = Self::parameters().map(Parameter::name).collect();
-            Error::new(
-                ErrorKind::InvalidInput,
-                format!(
-                    "unknown parameter '{name}'; the parameters are {}",
-                    names.join(", ")
-                ),
-            )
+            Error::invalid(format!(
+                "unknown parameter '{name}'; the parameters are {}",
+                names.join(", ")
+            ))
         })?;
         parameter.set(self, value)
     }
@@ -119,6 +116,7 @@ impl FillOptions {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::ErrorKind;
 
     #[test]
     fn every_parameter_takes_its_own_default_back() {

@@ -16,7 +16,7 @@ use super::{
     Surface, quantile,
     spatial::{FaceIndex, Nearest},
 };
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
 use rayon::prelude::*;
@@ -87,7 +87,7 @@ pub struct Deviation {
 /// For the papers' figures `a` is the filled mesh and `b` the original.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidInput`] when a surface has no triangle, a triangle names a position that does
+/// [`crate::ErrorKind::InvalidInput`] when a surface has no triangle, a triangle names a position that does
 /// not exist, or a triangle's coordinate is not finite.
 pub fn compare(
     a_positions: &[[f64; 3]],
@@ -102,10 +102,9 @@ pub fn compare(
     for (name, positions, triangles) in surfaces {
         let is_missing = |v: &u32| *v as usize >= positions.len();
         if let Some(face) = triangles.iter().position(|t| t.iter().any(is_missing)) {
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                format!("triangle {face} of the {name} surface names a vertex that does not exist"),
-            ));
+            return Err(Error::invalid(format!(
+                "triangle {face} of the {name} surface names a vertex that does not exist"
+            )));
         }
     }
     compare_surfaces(
@@ -124,10 +123,9 @@ pub fn compare(
 fn compare_surfaces(a: Surface<'_>, b: Surface<'_>) -> Result<Deviation> {
     for (name, surface) in [("first", a), ("second", b)] {
         if surface.triangles.is_empty() {
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                format!("the {name} surface has no triangle to compare"),
-            ));
+            return Err(Error::invalid(format!(
+                "the {name} surface has no triangle to compare"
+            )));
         }
         let is_finite = |v: &u32| surface.points[*v as usize].iter().all(|x| x.is_finite());
         if let Some(face) = surface
@@ -135,12 +133,9 @@ fn compare_surfaces(a: Surface<'_>, b: Surface<'_>) -> Result<Deviation> {
             .iter()
             .position(|t| !t.iter().all(is_finite))
         {
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                format!(
-                    "triangle {face} of the {name} surface has a coordinate that is not finite"
-                ),
-            ));
+            return Err(Error::invalid(format!(
+                "triangle {face} of the {name} surface has a coordinate that is not finite"
+            )));
         }
     }
     let index_a = FaceIndex::build(a, &Job::unlimited())?;
@@ -169,12 +164,9 @@ struct Measured {
 
 fn measure(from: Surface<'_>, to: Surface<'_>, index: &FaceIndex) -> Result<Measured> {
     let nearest = |p: &Vec3| -> Result<Nearest> {
-        index.nearest(to, p).ok_or_else(|| {
-            Error::new(
-                ErrorKind::InvalidInput,
-                "the coordinates are too large to compare",
-            )
-        })
+        index
+            .nearest(to, p)
+            .ok_or_else(|| Error::invalid("the coordinates are too large to compare"))
     };
     let samples = sample(from);
     let hits: Vec<(u32, Nearest)> = samples
@@ -313,6 +305,7 @@ fn is_single_precision(surface: Surface<'_>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::ErrorKind;
 
     /// A square of side `side` at height `z`, in 2 n^2 triangles facing up.
     fn square(n: u32, side: f64, z: f64) -> (Vec<Vec3>, Vec<[u32; 3]>) {

@@ -30,7 +30,7 @@ mod tangent;
 #[cfg(test)]
 mod tests;
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::fill::progress::{ProgressCallback, Watch};
 use crate::job::Job;
 use crate::math::plane::principal_spreads;
@@ -149,9 +149,9 @@ pub struct PointReport {
 /// `progress` is called about every 10 milliseconds, with no holes, and can cancel the work.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidInput`] for a position that is not finite, normals or attributes of another length than
-/// the positions, fewer than 4 points, options out of range; [`ErrorKind::Geometry`] for fewer than 4 different
-/// points, points on a line, and when no triangle can be made; [`ErrorKind::Cancelled`] when stopped.
+/// [`crate::ErrorKind::InvalidInput`] for a position that is not finite, normals or attributes of another length than
+/// the positions, fewer than 4 points, options out of range; [`crate::ErrorKind::Geometry`] for fewer than 4 different
+/// points, points on a line, and when no triangle can be made; [`crate::ErrorKind::Cancelled`] when stopped.
 ///
 /// # Complexity
 /// O(n log n) time and O(n) memory, about 1 kB for each point, at a given number of neighbors.
@@ -298,5 +298,5 @@ fn range(values: Vec<f64>) -> [f64; 3] {
 }
 
 fn geometry(message: String) -> Error {
-    Error::new(ErrorKind::Geometry, message)
+    Error::geometry(message)
 }

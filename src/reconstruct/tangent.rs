@@ -7,6 +7,7 @@
 //! triangulation, Eurographics 2000, section 4.1.
 
 use crate::math::Vec3;
+use crate::math::frame::axes_across;
 use robust::Coord;
 
 /// Upper bound on the slope of the line to a neighbor against the tangent plane, as a tangent: 60°. A steeper line
@@ -30,13 +31,12 @@ pub(super) struct Tangent {
 impl Tangent {
     /// The frame at `origin`; seen against `normal`, a unit vector, angles run counter-clockwise.
     pub(super) fn new(origin: Vec3, normal: Vec3) -> Self {
-        // The axis least parallel to the normal gives the most accurate cross product.
-        let u = normal.cross(&Vec3::ith(normal.iamin(), 1.0)).normalize();
+        let [u, v] = axes_across(&normal);
         Self {
             origin,
             normal,
             u,
-            v: normal.cross(&u),
+            v,
         }
     }
 

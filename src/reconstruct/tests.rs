@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::boundary::loops::BoundaryLoops;
+use crate::error::ErrorKind;
 use crate::fixtures::{self, Arrays, Noise, Point};
 use crate::job::Job;
 use crate::mesh::attributes::{AttributeValues, ScalarValues};

@@ -10,7 +10,7 @@
 //! Cost: `O(1)` for each inserted vertex. Not guaranteed: exact distances. They are measured along patch edges and
 //! are up to a sixth too long.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
@@ -56,10 +56,7 @@ pub(crate) fn rim_sizes(surface: &PatchSurface, mesh_edge_lengths: &[f64]) -> Re
     };
     let mean = sizes.iter().sum::<f64>() / sizes.len().max(1) as f64;
     if !usable(mean) {
-        return Err(Error::new(
-            ErrorKind::Geometry,
-            "the rim of the hole has no extent",
-        ));
+        return Err(Error::geometry("the rim of the hole has no extent"));
     }
     for size in &mut sizes {
         *size = size.max(MIN_RELATIVE_SIZE * mean);
@@ -115,25 +112,16 @@ impl SizeField {
     ) -> Result<Self> {
         let (rim, all) = (mesh.rim_count(), mesh.vertex_count());
         if given.len() != rim && given.len() != all {
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                format!(
-                    "{} target edge lengths for {rim} rim and {all} vertices",
-                    given.len()
-                ),
-            ));
+            return Err(Error::invalid(format!(
+                "{} target edge lengths for {rim} rim and {all} vertices",
+                given.len()
+            )));
         }
         if !given.iter().all(|s| s.is_finite() && *s > 0.0) {
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                "a target edge length is not positive",
-            ));
+            return Err(Error::invalid("a target edge length is not positive"));
         }
         if !(grading.is_finite() && grading >= 0.0) {
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                "the grading is negative or not finite",
-            ));
+            return Err(Error::invalid("the grading is negative or not finite"));
         }
         if given.len() == all && grading == 0.0 {
             return Ok(Self {
@@ -263,6 +251,7 @@ fn distances_from_rim(
 mod tests {
     use super::super::fixtures::{disc_rim, fan_patch};
     use super::*;
+    use crate::error::ErrorKind;
 
     #[test]
     fn grading_starts_smoothly_and_never_falls() {

@@ -16,7 +16,7 @@ use super::density::SizeField;
 use super::flip::{Blocked, Flipper};
 use super::locality::renumber;
 use super::relax::relax;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
@@ -120,10 +120,7 @@ pub(crate) fn refine(
     blocked: &Blocked<'_>,
 ) -> Result<RefineReport> {
     if !surface.points.iter().flatten().all(|x| x.is_finite()) {
-        return Err(Error::new(
-            ErrorKind::InvalidInput,
-            "a patch point is not finite",
-        ));
+        return Err(Error::invalid("a patch point is not finite"));
     }
     options.job.ask()?;
     let mesh = PatchMesh::new(
@@ -335,13 +332,10 @@ impl Refiner<'_> {
                 continue;
             }
             if self.mesh.vertex_count() >= self.options.max_vertices {
-                return Err(Error::new(
-                    ErrorKind::Limit,
-                    format!(
-                        "the patch needs more than {} vertices",
-                        self.options.max_vertices
-                    ),
-                ));
+                return Err(Error::limit(format!(
+                    "the patch needs more than {} vertices",
+                    self.options.max_vertices
+                )));
             }
             used[h as usize / 3] = true;
             used[g as usize / 3] = true;

@@ -37,7 +37,7 @@ pub(super) fn search(polygon: &HolePolygon<'_>, job: &Job<'_>) -> Result<Vec<[u3
     let len = polygon.len();
     if len > MAX_SEARCHED {
         let message = format!("the minimum-weight search takes {MAX_SEARCHED} vertices, not {len}");
-        return Err(Error::new(ErrorKind::Limit, message));
+        return Err(Error::limit(message));
     }
     let rules = ChordRules::new(polygon);
     // If two chords join the same vertices, one of them is forbidden. The choices are searched depth first.
@@ -61,7 +61,7 @@ pub(super) fn search(polygon: &HolePolygon<'_>, job: &Job<'_>) -> Result<Vec<[u3
     }
     Err(first_failure.unwrap_or_else(|| {
         let message = "no triangulation was found that joins no two vertices twice";
-        Error::new(ErrorKind::Topology, message)
+        Error::topology(message)
     }))
 }
 
@@ -227,10 +227,10 @@ fn solve(
         return Err(if any_barred {
             let message = "every triangulation of the hole has an edge that already exists, \
                            or a triangle without area";
-            Error::new(ErrorKind::Topology, message)
+            Error::topology(message)
         } else {
             let message = "every triangulation of the hole has a triangle without area";
-            Error::new(ErrorKind::Geometry, message)
+            Error::geometry(message)
         });
     }
     Ok(trace(&table))

@@ -103,7 +103,7 @@ fn clip_then_search(
             break; // Clipping ended for want of ears: it would leave the same again.
         }
     }
-    Err(failure.unwrap_or_else(|| Error::new(ErrorKind::Limit, "no work was allowed")))
+    Err(failure.unwrap_or_else(|| Error::limit("no work was allowed")))
 }
 
 fn search_rest(

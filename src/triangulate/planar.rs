@@ -7,7 +7,7 @@
 //! Not guaranteed: if four vertices lie on a circle, another numbering can give other triangles.
 
 use super::simple_polygon::{Point2, find_contact, is_counter_clockwise};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::job::Job;
 use spade::handles::{FixedFaceHandle, FixedVertexHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, Triangulation, mitigate_underflow};
@@ -23,9 +23,9 @@ type Delaunay = ConstrainedDelaunayTriangulation<spade::Point2<f64>>;
 /// 2 k + 2 h` triangles for `m` polygon vertices, `k` interior points and `h` inner polygons.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidInput`] for a coordinate that is not finite or exceeds 10^60; [`ErrorKind::Geometry`] when
+/// [`crate::ErrorKind::InvalidInput`] for a coordinate that is not finite or exceeds 10^60; [`crate::ErrorKind::Geometry`] when
 /// a polygon is not simple (decided exactly), two polygons meet or one lies outside the first, or an interior point
-/// lies outside, on a polygon, or on another interior point; [`ErrorKind::Cancelled`].
+/// lies outside, on a polygon, or on another interior point; [`crate::ErrorKind::Cancelled`].
 pub(crate) fn triangulate_planar_region(
     polygons: &[impl AsRef<[Point2]>],
     interior: &[Point2],
@@ -143,17 +143,18 @@ fn inner_triangles(
 }
 
 fn invalid(message: String) -> Error {
-    Error::new(ErrorKind::InvalidInput, message)
+    Error::invalid(message)
 }
 
 fn geometry(message: String) -> Error {
-    Error::new(ErrorKind::Geometry, message)
+    Error::geometry(message)
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::simple_polygon::turn;
     use super::*;
+    use crate::error::ErrorKind;
     use proptest::prelude::*;
     use robust::{Coord, incircle};
     use std::f64::consts::TAU;

@@ -1,6 +1,6 @@
 //! The polygon of a hole in space, the rules for its triangulations, and their weight.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::math::{Vec3, cross_normal, unit};
 
 /// Upper bound on the size of a polygon; the lower bound is `1 / EXTENT_LIMIT`. Outside this range, the fourth power
@@ -40,7 +40,7 @@ impl HolePolygon<'_> {
     /// Checks the conditions that all functions of this module need.
     pub(super) fn validate(&self) -> Result<()> {
         let len = self.len();
-        let invalid = |message: String| Err(Error::new(ErrorKind::InvalidInput, message));
+        let invalid = |message: String| Err(Error::invalid(message));
         if len < 3 {
             return invalid(format!(
                 "a hole polygon of {len} vertices cannot be triangulated"
@@ -52,10 +52,7 @@ impl HolePolygon<'_> {
             ));
         }
         if u32::try_from(len).is_err() {
-            return Err(Error::new(
-                ErrorKind::Limit,
-                format!("{len} vertices in one polygon"),
-            ));
+            return Err(Error::limit(format!("{len} vertices in one polygon")));
         }
         for i in 0..len {
             let next = (i + 1) % len;
@@ -70,20 +67,14 @@ impl HolePolygon<'_> {
         let (low, high) = bounds(self.points);
         let extent = (high - low).amax();
         if extent == 0.0 {
-            return Err(Error::new(
-                ErrorKind::Geometry,
-                "all vertices of the hole coincide",
-            ));
+            return Err(Error::geometry("all vertices of the hole coincide"));
         }
         if !(1.0 / EXTENT_LIMIT..=EXTENT_LIMIT).contains(&extent) {
-            return Err(Error::new(
-                ErrorKind::Geometry,
-                format!("the hole has size {extent:e}"),
-            ));
+            return Err(Error::geometry(format!("the hole has size {extent:e}")));
         }
         if self.is_collinear() {
             let message = "all vertices of the hole lie on one line";
-            return Err(Error::new(ErrorKind::Geometry, message));
+            return Err(Error::geometry(message));
         }
         Ok(())
     }
@@ -219,7 +210,7 @@ pub(crate) struct Weight {
 /// `Topology` when `triangles` is not a triangulation: when they do not use every edge of the
 /// polygon once in its direction and every other edge once in each.
 pub(crate) fn weight_of(polygon: &HolePolygon<'_>, triangles: &[[u32; 3]]) -> Result<Weight> {
-    let broken = |message: String| Err(Error::new(ErrorKind::Topology, message));
+    let broken = |message: String| Err(Error::topology(message));
     let len = polygon.len();
     if triangles.len() + 2 != len {
         return broken(format!(
@@ -283,6 +274,7 @@ fn angle(a: &Vec3, b: &Vec3) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::ErrorKind;
 
     const FREE: &dyn Fn(usize, usize) -> bool = &|_, _| false;
 

@@ -32,15 +32,20 @@ const RULES: &[(&str, &[&str])] = &[
     ("mesh", &["error", "job", "math"]),
     ("boundary", &["error", "job", "math", "mesh"]),
     ("quality", &["error", "job", "math", "mesh"]),
-    ("patch", &["error", "job", "math", "mesh"]),
+    // What a method is given, in coordinates and indices of its own.
+    ("surroundings", &["error", "job", "math"]),
+    ("hole", &["math", "surroundings"]),
+    ("patch", &["error", "job", "math", "mesh", "hole"]),
     // The triangulation of a patch: no coordinates.
     ("patch::mesh", &["error", "mesh", "patch::edit"]),
     ("patch::edit", &["patch::mesh"]),
     // What makes a patch knows nothing of loops, of the pipeline, of its judges or of each other.
     ("triangulate", &["error", "job", "math", "mesh", "patch"]),
     ("refine", &["error", "job", "math", "mesh", "patch"]),
-    ("fair", &["error", "job", "math", "mesh", "patch"]),
-    ("surroundings", &["error", "job", "math", "mesh", "patch"]),
+    (
+        "fair",
+        &["error", "job", "math", "mesh", "patch", "surroundings"],
+    ),
     // What users choose: plain values, and the machinery that gives them names.
     ("options::entry", &["error"]),
     ("options", &["error", "methods::method"]),
@@ -54,6 +59,7 @@ const RULES: &[(&str, &[&str])] = &[
             "mesh",
             "quality",
             "patch",
+            "hole",
             "surroundings",
             "options",
             "triangulate",
@@ -64,7 +70,17 @@ const RULES: &[(&str, &[&str])] = &[
     (
         "fill",
         &[
-            "error", "job", "math", "mesh", "boundary", "quality", "patch", "options", "methods",
+            "error",
+            "job",
+            "math",
+            "mesh",
+            "boundary",
+            "quality",
+            "patch",
+            "hole",
+            "surroundings",
+            "options",
+            "methods",
             "fair",
         ],
     ),

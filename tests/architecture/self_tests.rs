@@ -10,7 +10,7 @@ fn example_root() -> Root {
         .collect();
     let exports = [
         ("Error", "error::Error"),
-        ("fill_holes", "fill::pipeline::fill_holes"),
+        ("fill_holes", "fill::session::fill_holes"),
     ];
     Root {
         modules,
@@ -128,7 +128,7 @@ fn what_is_forbidden_is_found_in_every_form() {
             "fn g() { #[cfg(test)] crate::fill::f(); }",
             "fill::f",
         ),
-        ("boundary", "use crate::fill_holes;", "fill::pipeline"),
+        ("boundary", "use crate::fill_holes;", "fill::session"),
         ("boundary", "use crate::Nonsense;", "not known"),
         ("novelty", "use crate::error::Error;", "no rule"),
     ];
@@ -147,7 +147,7 @@ fn what_is_allowed_is_not_objected_to() {
     let root = example_root();
     let cases = [
         (
-            "fill::hole",
+            "fill::cut",
             "use crate::{fair::laplacian::X, boundary::*, quality::{self, Surface}};",
         ),
         ("methods::mls", "use crate::triangulate::triangulate;"),

@@ -12,8 +12,8 @@ mod shape;
 mod unfold;
 mod verify;
 
-use super::pipeline::fill_holes;
 use super::report::{FillReport, HoleStatus};
+use super::session::fill_holes;
 use crate::boundary::loops::BoundaryLoops;
 use crate::boundary::select::Selection;
 use crate::fixtures::Arrays;

@@ -197,12 +197,11 @@ impl Marcher<'_> {
         let extended = if self.joins_with_slope {
             let surroundings = &self.task.hole.surroundings;
             // The slope depends on the first ring only.
-            let is_first = |&v: &usize| surroundings.levels[v] == 1;
-            let first: Vec<usize> = (0..surroundings.points.len()).filter(is_first).collect();
-            let points: Vec<Vec3> = first.iter().map(|&v| surroundings.points[v]).collect();
-            let mut around = vec![Vec3::zeros(); surroundings.points.len()];
+            let first = surroundings.vertices_in(1..2);
+            let points: Vec<Vec3> = first.iter().map(|&v| surroundings.point(v)).collect();
+            let mut around = vec![Vec3::zeros(); surroundings.outer().len()];
             for (v, offset) in first.into_iter().zip(self.offsets(&points, limit)?) {
-                around[v] = offset;
+                around[v as usize - rim_count] = offset;
             }
             extend_with_slope(patch, surroundings, &at_rim, &around, &mut solver)?
         } else {

@@ -25,7 +25,7 @@ use super::task::Task;
 use crate::error::{Error, ErrorKind, Result};
 use crate::fair::kharmonic::Order;
 use crate::patch::PatchSurface;
-use crate::surroundings::Band;
+use crate::surroundings::fits::QuadricFits;
 use creases::Creases;
 use gates::TIP_REACH;
 use march::Marcher;
@@ -91,9 +91,9 @@ impl Auto<'_> {
         let task = self.task;
         let lengths = &task.hole.edge_lengths;
         let step = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
-        let band = Band::new(self.task.hole, self.task.job)?;
+        let fits = QuadricFits::new(&self.task.hole.surroundings, self.task.job)?;
         let mut samples = SampledBand::new(
-            band,
+            fits,
             self.task.hole,
             step,
             task.options.methods.auto.jets,
@@ -233,7 +233,7 @@ impl Auto<'_> {
         let options = &self.task.options.methods.auto;
         let is_noisy = samples.is_noisy();
         if let Some(candidate) = options.candidate {
-            return Ok((candidate, Vec::new(), self.stump(samples)));
+            return Ok((candidate, Vec::new(), self.stump()));
         }
         if !self.chooses {
             let is_smoothed = is_noisy || samples.is_detail_misleading();
@@ -249,7 +249,7 @@ impl Auto<'_> {
             .filter(|c| options.allows(*c, samples))
             .collect();
         let scores = choice::scores(samples, &candidates)?;
-        let stump = self.stump(samples);
+        let stump = self.stump();
         let closing = stump
             .filter(|_| !choice::is_exact(&scores))
             .and_then(|_| tip::closing_candidate(&scores));
@@ -259,8 +259,8 @@ impl Auto<'_> {
         Ok((chosen, scores, stump))
     }
 
-    fn stump(&self, samples: &SampledBand) -> Option<Stump> {
+    fn stump(&self) -> Option<Stump> {
         let is_asked_for = self.task.options.methods.auto.tips;
-        is_asked_for.then(|| tip::find_stump(self.task.hole, &samples.band))?
+        is_asked_for.then(|| tip::find_stump(self.task.hole))?
     }
 }

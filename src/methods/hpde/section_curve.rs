@@ -2,7 +2,7 @@
 
 use super::evolution::evolve;
 use super::options::{HpdeOptions, HpdeSolver};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::math::random::seeded;
 use crate::methods::sections::arcs::{Arc, profile};
@@ -24,7 +24,7 @@ pub struct SectionCurve {
 /// line between the ends. Only the solver and the options of differential evolution are read.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidInput`] unless the length is positive and finite and the angles are between -π and π.
+/// [`crate::ErrorKind::InvalidInput`] unless the length is positive and finite and the angles are between -π and π.
 ///
 /// # Complexity
 /// `O(count · generations)`.
@@ -37,10 +37,9 @@ pub fn evolve_section(
 ) -> Result<SectionCurve> {
     let is_sound = length.is_finite() && length > 0.0 && angles.iter().all(|a| a.abs() < PI);
     if !is_sound {
-        return Err(Error::new(
-            ErrorKind::InvalidInput,
-            format!("there is no section of length {length} with the angles {angles:?}"),
-        ));
+        return Err(Error::invalid(format!(
+            "there is no section of length {length} with the angles {angles:?}"
+        )));
     }
     let [first, second] = angles.map(|angle| Arc { length, angle });
     let profile = profile(&first, &second, count);
@@ -63,6 +62,7 @@ pub fn evolve_section(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::ErrorKind;
 
     #[test]
     fn a_circle_is_continued_and_needs_no_generation() {

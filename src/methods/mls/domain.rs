@@ -5,7 +5,7 @@
 //! linear in the number of points. Not guaranteed: that the projection to the domain is one-to-one.
 
 use super::vicinity::Vicinity;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::math::{Vec3, cross_normal, unit};
 use crate::triangulate::simple_polygon::Point2;
 use nalgebra::{Matrix3, SymmetricEigen};
@@ -45,7 +45,7 @@ impl Domain {
     /// polygon that bounds the patch.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] when the rim encloses no area in the plane.
+    /// [`crate::ErrorKind::Geometry`] when the rim encloses no area in the plane.
     pub(crate) fn plane(vicinity: &Vicinity, rim: &[Vec3]) -> Result<Self> {
         let origin = vicinity.points.iter().sum::<Vec3>() / vicinity.points.len().max(1) as f64;
         let mut scatter = Matrix3::zeros();
@@ -60,7 +60,7 @@ impl Domain {
         let facing = vector_area(rim).dot(&s);
         if !facing.is_finite() || facing == 0.0 {
             let message = "the rim encloses no area in the reference plane";
-            return Err(Error::new(ErrorKind::Geometry, message));
+            return Err(Error::geometry(message));
         }
         Ok(Self::Plane {
             origin,
@@ -75,12 +75,7 @@ impl Domain {
     /// # Errors
     /// [`ErrorKind::Geometry`] when there is no such sphere, or it is nearly flat.
     pub(crate) fn sphere(vicinity: &Vicinity, rim: &[Vec3]) -> Result<Self> {
-        let flat = || {
-            Error::new(
-                ErrorKind::Geometry,
-                "the vicinity is not curved like a sphere",
-            )
-        };
+        let flat = || Error::geometry("the vicinity is not curved like a sphere");
         let faces: Vec<(Vec3, Vec3, f64)> = vicinity
             .triangles
             .iter()

@@ -16,11 +16,13 @@ use super::mask;
 use super::options::{MlsDomain, MlsOptions, MlsUnit};
 use super::vicinity::{Vicinity, rim_loops};
 use crate::error::{Error, ErrorKind, Result};
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal};
+use crate::patch::PatchSurface;
 use crate::patch::chords::joined_chords;
 use crate::patch::mesh::PatchMesh;
-use crate::patch::{HoleShape, PatchSurface, Surroundings};
+use crate::surroundings::Surroundings;
 use crate::triangulate::planar::triangulate_planar_region;
 use crate::triangulate::simple_polygon::{Point2, find_contact};
 
@@ -39,7 +41,7 @@ const RADIUS_SHARE: f64 = 0.25;
 
 /// The height field round one hole.
 pub(crate) struct HeightField<'a> {
-    hole: &'a HoleShape,
+    hole: &'a Hole,
     options: &'a MlsOptions,
     vicinity: Vicinity,
     domain: Domain,
@@ -58,7 +60,7 @@ impl<'a> HeightField<'a> {
     /// [`ErrorKind::Geometry`] when there is no domain, or the vicinity does not project to it one-to-one;
     /// [`ErrorKind::Topology`] when an island touches the rim; [`ErrorKind::Cancelled`].
     pub(crate) fn new(
-        hole: &'a HoleShape,
+        hole: &'a Hole,
         surroundings: &Surroundings,
         options: &'a MlsOptions,
         job: &Job<'_>,
@@ -70,7 +72,7 @@ impl<'a> HeightField<'a> {
         let rim: Vec<Vec3> = hole
             .polygon
             .iter()
-            .map(|&v| hole.points[v as usize])
+            .map(|&v| surroundings.point(v))
             .collect();
         let on = |domain: Domain| {
             let projection = Projection::new(&domain, &vicinity, &loops, job)?;
@@ -139,12 +141,12 @@ impl<'a> HeightField<'a> {
         // The triangulation numbers the vertices of the loops first and then the samples.
         let order: Vec<u32> = self.loops.iter().flatten().copied().collect();
         let mut triangles = triangulate_planar_region(&loops, &samples, job)?;
-        let shift = hole.points.len() - order.len();
+        let shift = hole.rim().len() - order.len();
         let global = |v: u32| order.get(v as usize).copied().unwrap_or(v + shift as u32);
         for round in 0.. {
             let triangles_in_space = triangles.iter().map(|t| t.map(global)).collect();
-            let count = hole.points.len() + samples.len();
-            let mesh = PatchMesh::new(triangles_in_space, count, hole.points.len())?;
+            let count = hole.rim().len() + samples.len();
+            let mesh = PatchMesh::new(triangles_in_space, count, hole.rim().len())?;
             let mut chords = joined_chords(&mesh, hole);
             if chords.is_empty() || round == CHORD_ROUNDS {
                 break;
@@ -157,13 +159,13 @@ impl<'a> HeightField<'a> {
             triangles = triangulate_planar_region(&loops, &samples, job)?;
         }
         let heights = self.fitted(std::slice::from_ref(&self.heights), &samples, job)?;
-        let mut points = hole.points.clone();
+        let mut points = hole.rim().to_vec();
         points.extend(samples.iter().zip(&heights[0]).map(|(&uv, &height)| {
             let place = Place { uv, height };
             self.domain.point(&place)
         }));
         Ok(PatchSurface {
-            rim_count: hole.points.len(),
+            rim_count: hole.rim().len(),
             points,
             triangles: triangles.into_iter().map(|t| t.map(global)).collect(),
         })
@@ -182,7 +184,7 @@ impl<'a> HeightField<'a> {
                 "{} samples of a fit to {count} points are too many",
                 places.len()
             );
-            return Err(Error::new(ErrorKind::Limit, message));
+            return Err(Error::limit(message));
         }
         let fit = MovingFit {
             points: &self.uv,
@@ -211,7 +213,7 @@ impl<'a> HeightField<'a> {
         match self.options.unit {
             MlsUnit::Step => self.vicinity.step,
             MlsUnit::Radius => {
-                let rim = &self.uv[..self.hole.points.len()];
+                let rim = &self.uv[..self.hole.rim().len()];
                 let count = rim.len() as f64;
                 let mean = |k: usize| rim.iter().map(|p| p[k]).sum::<f64>() / count;
                 let (u, v) = (mean(0), mean(1));
@@ -259,17 +261,17 @@ impl Projection {
         if turned > FOLDED_SHARE * all {
             let share = (100.0 * turned / all).round();
             let message = format!("{share} % of the vicinity are folded over in {onto}");
-            return Err(Error::new(ErrorKind::Geometry, message));
+            return Err(Error::geometry(message));
         }
         for of_loop in loops {
             let polygon: Vec<Point2> = of_loop.iter().map(|&v| places[v as usize].uv).collect();
             if polygon.iter().flatten().any(|x| !x.is_finite()) {
                 let message = format!("the rim has no place in {onto}");
-                return Err(Error::new(ErrorKind::Geometry, message));
+                return Err(Error::geometry(message));
             }
             if let Some((i, j)) = find_contact(&polygon, job)? {
                 let message = format!("edges {i} and {j} of the rim meet in {onto}");
-                return Err(Error::new(ErrorKind::Geometry, message));
+                return Err(Error::geometry(message));
             }
         }
         Ok(Self {

@@ -3,7 +3,7 @@
 //! The paper calls the region round the hole the mask. Each grid line is cut with the rim; the points between two
 //! crossings are inside. Points too near to the rim are left out.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::triangulate::simple_polygon::Point2;
 
@@ -17,7 +17,7 @@ const MOST_LINES: f64 = 1e9;
 /// island.
 ///
 /// # Errors
-/// [`ErrorKind::Limit`] for more than `limit` samples; [`ErrorKind::Cancelled`].
+/// [`crate::ErrorKind::Limit`] for more than `limit` samples; [`crate::ErrorKind::Cancelled`].
 ///
 /// # Complexity
 /// O(k + l log l) for k samples and l grid cells along the loops.
@@ -29,7 +29,7 @@ pub(crate) fn resampling_positions(
 ) -> Result<Vec<Point2>> {
     let too_many = || {
         let message = format!("the hole needs more than {limit} new vertices");
-        Error::new(ErrorKind::Limit, message)
+        Error::limit(message)
     };
     let mut crossings: Vec<(i64, f64)> = Vec::new();
     let mut near: Vec<(i64, i64)> = Vec::new();
@@ -119,6 +119,7 @@ fn add_near([a, b]: [Point2; 2], near: &mut Vec<(i64, i64)>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::ErrorKind;
     use proptest::prelude::*;
 
     fn distance(p: Point2, [a, b]: [Point2; 2]) -> f64 {

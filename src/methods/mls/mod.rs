@@ -21,8 +21,9 @@ use super::task::Task;
 use crate::error::Result;
 use crate::math::Vec3;
 use crate::options::FillOptions;
-use crate::patch::{PatchSurface, Surroundings};
+use crate::patch::PatchSurface;
 use crate::refine::{RefineOptions, refine};
+use crate::surroundings::Surroundings;
 use height_field::HeightField;
 
 /// The method.

@@ -12,7 +12,7 @@ use super::base_points::BasePoint;
 use super::rim::Rim;
 use super::section::Section;
 use super::segmentation::{Plane, fit_plane};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::math::{Vec3, unit};
 
 /// Lower bound on the distance between two sections laid side by side, and on the height of the two ends beyond the
@@ -74,7 +74,7 @@ impl Scene<'_> {
     /// turned round the line in which both meet, into the first.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] when the planes do not meet or the parts lie on the wrong sides of the line.
+    /// [`crate::ErrorKind::Geometry`] when the planes do not meet or the parts lie on the wrong sides of the line.
     pub(super) fn on_two_planes(&self, fold: usize) -> Result<Layout> {
         let n = self.base.len();
         let is_far = |place: f64| place >= fold as f64 && place <= (n - 1 - fold) as f64;
@@ -312,5 +312,5 @@ fn meeting_point(a: &Plane, b: &Plane, cross: &Vec3) -> Vec3 {
 }
 
 fn refusal(message: &str) -> Error {
-    Error::new(ErrorKind::Geometry, message)
+    Error::geometry(message)
 }

@@ -32,10 +32,13 @@ pub(super) use section::{Predicted, Prepared};
 
 use super::task::Task;
 use crate::error::{Error, ErrorKind, Result};
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::Vec3;
-use crate::patch::{HoleShape, PatchSurface};
-use crate::surroundings::Band;
+use crate::math::adjacency::CompressedRows;
+use crate::patch::PatchSurface;
+use crate::surroundings::Surroundings;
+use crate::surroundings::fits::QuadricFits;
 use crate::triangulate::planar::triangulate_planar_region;
 use base_points::base_points;
 use correspondences::{best_start, pairs, start_of_cut};
@@ -45,7 +48,7 @@ use optimize::Editor;
 use options::{SectionOptions, SectionProjection, SectionTangents};
 use rim::{Rim, check_simple, edge_normals, mean_edge_length};
 use section::{Section, assemble, prepare};
-use smoothing::{NeighborLists, smooth};
+use smoothing::smooth;
 use std::borrow::Cow;
 
 /// Rings of known triangles that are read. A normal is fitted to two rings of neighbors, or to more where there are
@@ -140,17 +143,16 @@ pub(super) fn patch_along(
 }
 
 /// The rim, with normals. On request it is smoothed, together with its surroundings.
-fn read_rim(hole: &HoleShape, options: &SectionOptions, job: &Job<'_>) -> Result<Rim> {
+fn read_rim(hole: &Hole, options: &SectionOptions, job: &Job<'_>) -> Result<Rim> {
     let mut seen = Cow::Borrowed(hole);
     if options.denoise > 0 {
-        denoise(seen.to_mut(), options.denoise);
+        seen.to_mut().surroundings = denoised(hole, options.denoise, job)?;
     }
     let normals = match options.tangents {
         SectionTangents::Chord => None,
         SectionTangents::Jet => {
             job.ask()?;
-            let band = Band::new(&seen, job)?;
-            Some(band.interpolating_normals(seen.points.len(), job)?)
+            Some(QuadricFits::new(&seen.surroundings, job)?.normals_at_rim(job)?)
         }
     };
     let in_order = |values: &[Vec3]| -> Vec<Vec3> {
@@ -158,7 +160,7 @@ fn read_rim(hole: &HoleShape, options: &SectionOptions, job: &Job<'_>) -> Result
         polygon.map(|&v| values[v as usize]).collect()
     };
     Ok(Rim::new(
-        in_order(&seen.points),
+        in_order(seen.rim()),
         edge_normals(&seen)?,
         normals.map(|n| in_order(&n)),
         mean_edge_length(&seen),
@@ -166,25 +168,23 @@ fn read_rim(hole: &HoleShape, options: &SectionOptions, job: &Job<'_>) -> Result
 }
 
 /// Smooths the rim along itself, and the rings round it except the outermost vertices.
-fn denoise(hole: &mut HoleShape, steps: usize) {
-    let rim_count = hole.points.len();
+fn denoised(hole: &Hole, steps: usize, job: &Job<'_>) -> Result<Surroundings> {
+    let around = &hole.surroundings;
+    let (rim_count, levels) = (hole.rim().len(), around.levels());
     let m = hole.polygon.len();
-    let mut points: Vec<Vec3> = hole.points.clone();
-    points.extend(&hole.surroundings.points);
-    let inner = NeighborLists::new(&hole.surroundings.triangles, points.len());
-    let along = (0..m).map(|i| (hole.polygon[i], hole.polygon[(i + 1) % m]));
-    let rim = NeighborLists::of_edges(along, points.len());
-    let outermost = hole.surroundings.levels.iter().copied().max().unwrap_or(0);
-    let is_inner = |v: usize| v >= rim_count && hole.surroundings.levels[v - rim_count] < outermost;
+    let mut points = around.points().to_vec();
+    let along = (0..m).map(|i| [hole.polygon[i], hole.polygon[(i + 1) % m]]);
+    let rim = CompressedRows::neighbors(along, points.len());
+    let outermost = levels.iter().copied().max().unwrap_or(0);
+    let is_inner = |v: usize| v >= rim_count && levels[v] < outermost;
     smooth(&mut points, &rim, |v| v < rim_count, steps);
-    smooth(&mut points, &inner, is_inner, steps);
-    hole.surroundings.points = points.split_off(rim_count);
-    hole.points = points;
+    smooth(&mut points, around.neighbors(job)?, is_inner, steps);
+    Ok(around.moved(points))
 }
 
 /// Steps 6 and 7: triangulates the points of a layout, then smooths and optimizes the patch.
 fn finish(
-    hole: &HoleShape,
+    hole: &Hole,
     rim: &Rim,
     sections: &[Section],
     layout: &Layout,
@@ -192,11 +192,11 @@ fn finish(
     job: &Job<'_>,
 ) -> Result<PatchSurface> {
     let mut editor = triangulated(hole, sections, layout, job)?;
-    let m = hole.points.len();
+    let m = hole.rim().len();
     if options.smoothing {
         let triangles: Vec<[u32; 3]> = editor.triangles().collect();
         let points = editor.points_mut();
-        let neighbors = NeighborLists::new(&triangles, points.len());
+        let neighbors = CompressedRows::corners(&triangles, points.len()).sorted();
         smooth(points, &neighbors, |v| v >= m, options.smoothing_steps);
     }
     editor.collapse_short(options.shortest_edge * rim.edge_length);
@@ -209,12 +209,12 @@ fn finish(
 
 /// The constrained triangulation of the layout. Points at which it folds are left out.
 fn triangulated<'a>(
-    hole: &'a HoleShape,
+    hole: &'a Hole,
     sections: &[Section],
     layout: &Layout,
     job: &Job<'_>,
 ) -> Result<Editor<'a>> {
-    let m = hole.points.len();
+    let m = hole.rim().len();
     let mut predicted: Vec<(Vec3, [f64; 2])> = sections
         .iter()
         .flat_map(|s| s.points.iter().copied())
@@ -229,14 +229,14 @@ fn triangulated<'a>(
         let message = format!(
             "the projection is not one to one: {outside} of {all} predicted points fall outside the rim"
         );
-        return Err(Error::new(ErrorKind::Geometry, message));
+        return Err(Error::geometry(message));
     }
     for _ in 0..MOST_ROUNDS {
         let inside: Vec<[f64; 2]> = predicted.iter().map(|p| p.1).collect();
         let triangles = triangulate_planar_region(&[&layout.rim], &inside, job)?;
         // The rim of the layout is in the order of the polygon.
         let number = |v: u32| hole.polygon.get(v as usize).copied().unwrap_or(v);
-        let mut points = hole.points.clone();
+        let mut points = hole.rim().to_vec();
         points.extend(predicted.iter().map(|p| p.0));
         let surface = PatchSurface {
             rim_count: m,
@@ -268,5 +268,5 @@ fn triangulated<'a>(
 
 fn folded(count: usize) -> Error {
     let message = format!("the patch is folded along {count} edges");
-    Error::new(ErrorKind::Geometry, message)
+    Error::geometry(message)
 }

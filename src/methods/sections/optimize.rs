@@ -8,11 +8,12 @@
 //! `O(n log n)` for `n` triangles whose vertices have bounded valence.
 
 use crate::error::Result;
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
+use crate::patch::PatchSurface;
 use crate::patch::chords::{joined_chords, split_middle};
 use crate::patch::mesh::{Halfedge, PatchMesh, next, prev};
-use crate::patch::{HoleShape, PatchSurface};
 use std::collections::BTreeSet;
 
 /// A collapse or swap must not turn a normal so far that the cosine of the angle is below this, 60°.
@@ -26,9 +27,9 @@ const LEAST_GAIN: f64 = 1e-6;
 pub(super) struct Editor<'a> {
     mesh: PatchMesh,
     points: Vec<Vec3>,
-    hole: &'a HoleShape,
-    /// The number of the last change of each triangle. Of the two triangles at an edge, the one that was changed
-    /// earlier comes first. This makes the order of swaps unique.
+    hole: &'a Hole,
+    /// The number of the last change of each triangle, and how many there were. Of two triangles at an edge the one that
+    /// was changed earlier comes first, which settles the order of the swaps.
     changed: Vec<usize>,
     /// Number of changes so far.
     changes: usize,
@@ -39,7 +40,7 @@ impl<'a> Editor<'a> {
     ///
     /// # Errors
     /// Those of [`PatchMesh::new`].
-    pub(super) fn new(surface: PatchSurface, hole: &'a HoleShape) -> Result<Self> {
+    pub(super) fn new(surface: PatchSurface, hole: &'a Hole) -> Result<Self> {
         let triangle_count = surface.triangles.len();
         let point_count = surface.points.len();
         let mut editor = Self {
@@ -66,7 +67,7 @@ impl<'a> Editor<'a> {
 
     /// The patch, without triangles that were removed and without points that no triangle uses.
     pub(super) fn finish(self) -> PatchSurface {
-        let rim_count = self.hole.points.len();
+        let rim_count = self.hole.rim().len();
         let mut number = vec![u32::MAX; self.points.len()];
         let mut points = Vec::new();
         for (v, p) in self.points.iter().enumerate() {

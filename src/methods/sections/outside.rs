@@ -7,10 +7,10 @@
 use super::base_points::BasePoint;
 use super::section::Prepared;
 use crate::error::Result;
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::{Vec3, unit};
-use crate::patch::HoleShape;
-use crate::surroundings::Band;
+use crate::surroundings::fits::QuadricFits;
 
 /// Upper bound on the triangles that a walk passes for each sample. Only slivers need more.
 const TRIANGLES_PER_STEP: usize = 8;
@@ -25,8 +25,7 @@ pub(crate) struct Known {
 
 /// The known triangles round a hole, with their edges sorted.
 pub(crate) struct Outside<'a> {
-    hole: &'a HoleShape,
-    points: Vec<Vec3>,
+    hole: &'a Hole,
     /// Unit normals at the vertices.
     normals: Vec<Vec3>,
     /// Directed edges with their opposite vertices, sorted.
@@ -38,30 +37,29 @@ impl<'a> Outside<'a> {
     ///
     /// # Errors
     /// `Cancelled` when the job is cancelled.
-    pub(crate) fn new(hole: &'a HoleShape, job: &Job<'_>) -> Result<Self> {
+    pub(crate) fn new(hole: &'a Hole, job: &Job<'_>) -> Result<Self> {
         let mut edges: Vec<(u32, u32, u32)> = hole
             .surroundings
-            .triangles
+            .triangles()
             .iter()
             .flat_map(|&[a, b, c]| [(a, b, c), (b, c, a), (c, a, b)])
             .collect();
         edges.sort_unstable();
         job.ask()?;
-        let band = Band::new(hole, job)?;
-        let mut normals = band.triangle_normals.clone();
-        // At the rim there are triangles on one side only, so their normals would be biased.
-        let at_rim = band.interpolating_normals(hole.points.len(), job)?;
+        let around = &hole.surroundings;
+        let mut normals = around.normals(job)?.to_vec();
+        // Those of triangles would lean to one side at the rim.
+        let at_rim = QuadricFits::new(around, job)?.normals_at_rim(job)?;
         normals[..at_rim.len()].copy_from_slice(&at_rim);
         Ok(Self {
             hole,
-            points: band.points,
             normals,
             edges,
         })
     }
 
     fn point(&self, v: u32) -> Vec3 {
-        self.points[v as usize]
+        self.hole.surroundings.point(v)
     }
 
     fn between(&self, a: u32, b: u32, share: f64) -> Known {
@@ -143,10 +141,10 @@ mod tests {
     use super::super::correspondences::Correspondence;
     use super::super::rim::Rim;
     use super::*;
-    use crate::patch::Surroundings;
+    use crate::surroundings::Surroundings;
 
     /// A sheet of unit squares, each cut in two, round a hole of 4 by 4, at the heights of a function.
-    pub(super) fn sheet(height: impl Fn(f64, f64) -> f64) -> HoleShape {
+    pub(super) fn sheet(height: impl Fn(f64, f64) -> f64) -> Hole {
         let side = 15_usize;
         let is_hole = |i: usize, j: usize| (5..9).contains(&i) && (5..9).contains(&j);
         let number = |i: usize, j: usize| (i * side + j) as u32;
@@ -185,15 +183,15 @@ mod tests {
             let of_others = || others.iter().position(|&w| w == v).map(|k| k + rim.len());
             of_rim.or_else(of_others).unwrap_or(0) as u32
         };
-        HoleShape {
-            points: rim.iter().map(|&v| at(v)).collect(),
+        Hole {
             polygon: (0..rim.len() as u32).collect(),
-            surroundings: Surroundings {
-                points: others.iter().map(|&v| at(v)).collect(),
-                levels: vec![1; others.len()],
-                triangles: triangles.iter().map(|t: &[u32; 3]| t.map(place)).collect(),
-            },
-            ..HoleShape::default()
+            surroundings: Surroundings::new(
+                rim.len(),
+                rim.iter().chain(&others).map(|&v| at(v)).collect(),
+                [vec![0; rim.len()], vec![1; others.len()]].concat(),
+                triangles.iter().map(|t: &[u32; 3]| t.map(place)).collect(),
+            ),
+            ..Hole::default()
         }
     }
 
@@ -201,7 +199,7 @@ mod tests {
     fn a_walk_follows_the_surface_at_equal_steps() {
         let hole = sheet(|x, _| 0.5 * x);
         let normal = Vec3::new(-0.5, 0.0, 1.0).normalize();
-        let rim = Rim::new(hole.points.clone(), vec![normal; 16], None, 1.0);
+        let rim = Rim::new(hole.rim().to_vec(), vec![normal; 16], None, 1.0);
         let base = base_points(&rim, 0.7);
         let outside = Outside::new(&hole, &Job::unlimited()).unwrap();
         let mut count = 0;
@@ -233,7 +231,7 @@ mod tests {
     #[test]
     fn a_walk_ends_where_the_known_triangles_end() {
         let hole = sheet(|_, _| 0.0);
-        let rim = Rim::new(hole.points.clone(), vec![Vec3::z(); 16], None, 1.0);
+        let rim = Rim::new(hole.rim().to_vec(), vec![Vec3::z(); 16], None, 1.0);
         let base = base_points(&rim, 0.7);
         let outside = Outside::new(&hole, &Job::unlimited()).unwrap();
         let section = Prepared {

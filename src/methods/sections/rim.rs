@@ -1,8 +1,8 @@
 //! The rim of a hole as the sections read it: positions, normals, and distances along it. `O(m)` for `m` rim vertices.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
+use crate::hole::Hole;
 use crate::math::{Vec3, unit};
-use crate::patch::HoleShape;
 
 /// A closed polygon in the patch's orientation, with normals of the known surface along it.
 #[derive(Clone, Debug)]
@@ -64,10 +64,10 @@ impl Rim {
 /// Refuses holes with islands and rims that pass a vertex twice. Sections need one simple curve.
 ///
 /// # Errors
-/// [`ErrorKind::Topology`].
-pub(super) fn check_simple(hole: &HoleShape) -> Result<()> {
-    let mut seen = vec![false; hole.points.len()];
-    let is_simple = hole.polygon.len() == hole.points.len()
+/// [`crate::ErrorKind::Topology`].
+pub(super) fn check_simple(hole: &Hole) -> Result<()> {
+    let mut seen = vec![false; hole.rim().len()];
+    let is_simple = hole.polygon.len() == hole.rim().len()
         && hole
             .polygon
             .iter()
@@ -75,8 +75,7 @@ pub(super) fn check_simple(hole: &HoleShape) -> Result<()> {
     if is_simple {
         return Ok(());
     }
-    Err(Error::new(
-        ErrorKind::Topology,
+    Err(Error::topology(
         "the hole has an island or a vertex that its rim passes twice, which HPDE cannot section",
     ))
 }
@@ -85,14 +84,11 @@ pub(super) fn check_simple(hole: &HoleShape) -> Result<()> {
 /// that has an area.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] if none has an area.
-pub(super) fn edge_normals(hole: &HoleShape) -> Result<Vec<Vec3>> {
+/// [`crate::ErrorKind::Geometry`] if none has an area.
+pub(super) fn edge_normals(hole: &Hole) -> Result<Vec<Vec3>> {
     let m = hole.polygon.len();
     let Some(first) = hole.outside_normals.iter().position(Option::is_some) else {
-        return Err(Error::new(
-            ErrorKind::Geometry,
-            "no triangle along the rim has an area",
-        ));
+        return Err(Error::geometry("no triangle along the rim has an area"));
     };
     let mut normals = vec![Vec3::zeros(); m];
     let mut last = Vec3::zeros();
@@ -106,19 +102,16 @@ pub(super) fn edge_normals(hole: &HoleShape) -> Result<Vec<Vec3>> {
 
 /// Mean edge length of the known triangles that touch the rim, but at most 1, the mean length of the rim's edges. The
 /// bound matters on a horn, whose triangles can be long in the direction away from the rim.
-pub(super) fn mean_edge_length(hole: &HoleShape) -> f64 {
-    let rim_count = hole.points.len();
-    let point = |v: u32| match (v as usize).checked_sub(rim_count) {
-        Some(outer) => hole.surroundings.points[outer],
-        None => hole.points[v as usize],
-    };
+pub(super) fn mean_edge_length(hole: &Hole) -> f64 {
+    let around = &hole.surroundings;
+    let rim_count = hole.rim().len();
     let (mut sum, mut count) = (0.0, 0.0);
-    for t in &hole.surroundings.triangles {
+    for t in around.triangles() {
         if t.iter().all(|&v| v as usize >= rim_count) {
             continue;
         }
         for k in 0..3 {
-            sum += (point(t[k]) - point(t[(k + 1) % 3])).norm();
+            sum += (around.point(t[k]) - around.point(t[(k + 1) % 3])).norm();
             count += 1.0;
         }
     }

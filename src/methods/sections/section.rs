@@ -8,7 +8,7 @@ use super::arcs::Arc;
 use super::base_points::{BasePoint, rim_direction};
 use super::correspondences::Correspondence;
 use super::options::SectionOptions;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::math::{Vec3, unit};
 
 /// Upper bound on the angle between the line of a section and the surface at its ends, in radians (150°). A steeper arc
@@ -106,7 +106,7 @@ pub(super) fn prepare(
             "the surface leaves {out_of_reach} of {} sections too steeply for an arc",
             pairs.len()
         );
-        return Err(Error::new(ErrorKind::Geometry, message));
+        return Err(Error::geometry(message));
     }
     let longest = sections.iter().fold(0.0, |l: f64, s| l.max(s.arc_length()));
     // Equation 15.
@@ -118,7 +118,7 @@ pub(super) fn prepare(
     }
     if sum > most_points {
         let message = format!("the patch would need more than {most_points} new vertices");
-        return Err(Error::new(ErrorKind::Limit, message));
+        return Err(Error::limit(message));
     }
     Ok(sections)
 }
@@ -213,7 +213,7 @@ fn leave_out_crossing(sections: &mut [Section], edge_length: f64) -> Result<()> 
     if crossing as f64 > MOST_CROSSING * all as f64 {
         let message =
             format!("the section planes cross: {crossing} of {all} points are out of order");
-        return Err(Error::new(ErrorKind::Geometry, message));
+        return Err(Error::geometry(message));
     }
     Ok(())
 }

@@ -69,13 +69,10 @@ pub(crate) fn unfold(
     }
     let distance = SegmentDistances::default().smallest(&curve);
     if distance.is_nan() || distance <= options.epsilon {
-        return Err(Error::new(
-            ErrorKind::Geometry,
-            format!(
-                "the rim of {} edges comes within {distance:.1e} mean edge lengths of itself",
-                curve.len()
-            ),
-        ));
+        return Err(Error::geometry(format!(
+            "the rim of {} edges comes within {distance:.1e} mean edge lengths of itself",
+            curve.len()
+        )));
     }
     let default_restarts = match options.solver {
         UnfoldSolver::Descent => DESCENT_RUNS,
@@ -156,7 +153,7 @@ fn anneal(
 /// The curve with its centroid as origin and its mean edge length as unit.
 fn in_mean_edges(points: &[Vec3]) -> Result<Vec<Vec3>> {
     let m = points.len();
-    let invalid = |message: String| Error::new(ErrorKind::InvalidInput, message);
+    let invalid = |message: String| Error::invalid(message);
     if m < 3 {
         return Err(invalid(format!("a curve of {m} points is not closed")));
     }
@@ -166,10 +163,7 @@ fn in_mean_edges(points: &[Vec3]) -> Result<Vec<Vec3>> {
         return Err(invalid("a point of the curve is not finite".to_owned()));
     }
     if mean <= f64::MIN_POSITIVE {
-        return Err(Error::new(
-            ErrorKind::Geometry,
-            "all points of the curve coincide",
-        ));
+        return Err(Error::geometry("all points of the curve coincide"));
     }
     Ok(points.iter().map(|p| (p - centroid) / mean).collect())
 }

@@ -22,7 +22,7 @@ use super::method::Method;
 use super::spec::MethodSpec;
 use super::start::{refine, sizes_at_rim};
 use super::task::Task;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::fair::kharmonic::{Order, fair};
 use crate::fair::laplacian::Weights;
 use crate::math::Vec3;
@@ -66,8 +66,8 @@ const RELAXATIONS: usize = 5;
 /// The embedded patch, refined and faired.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidInput`] for a rim with islands, [`ErrorKind::Knotted`] for one that was not unfolded;
-/// those of triangulation, refinement and fairing; [`ErrorKind::Cancelled`].
+/// [`crate::ErrorKind::InvalidInput`] for a rim with islands, [`crate::ErrorKind::Knotted`] for one that was not unfolded;
+/// those of triangulation, refinement and fairing; [`crate::ErrorKind::Cancelled`].
 fn shaped(task: &Task<'_>, order: Order, weights: Weights) -> Result<PatchSurface> {
     let mut surface = task.once(|| Embedded(embed(task))).0?;
     let mut sizes = sizes_at_rim(task, &surface)?;
@@ -90,23 +90,22 @@ struct Embedded(Result<PatchSurface>);
 
 fn embed(task: &Task<'_>) -> Result<PatchSurface> {
     let hole = task.hole;
-    if hole.polygon.len() != hole.points.len() {
-        return Err(Error::new(
-            ErrorKind::InvalidInput,
+    if hole.polygon.len() != hole.rim().len() {
+        return Err(Error::invalid(
             "a rim with islands is not one curve that could be unfolded",
         ));
     }
     let curve: Vec<Vec3> = hole
         .polygon
         .iter()
-        .map(|&v| hole.points[v as usize])
+        .map(|&v| hole.rim()[v as usize])
         .collect();
     let options = task.options;
     let unfolding = unfold(&curve, &options.methods.unfold, options.seed, task.job)?;
     let triangles = triangulate_planar_region(&[&unfolding.polygon], &[], task.job)?;
     let mut surface = PatchSurface {
-        rim_count: hole.points.len(),
-        points: hole.points.clone(),
+        rim_count: hole.rim().len(),
+        points: hole.rim().to_vec(),
         triangles: triangles
             .iter()
             .map(|t| t.map(|position| hole.polygon[position as usize]))

@@ -10,10 +10,10 @@
 //! regions, and is not found.
 
 use super::facets::{Facets, SharedEdge};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::{Vec3, unit};
-use crate::patch::HoleShape;
 
 /// Lower bound on the angle of a crease, in radians. Finely triangulated smooth surfaces stay below it.
 const LEAST_ANGLE: f64 = 35.0 / 180.0 * std::f64::consts::PI;
@@ -61,8 +61,8 @@ pub(crate) struct CreaseEnd {
 /// Finds the regions round the hole; `None` when there is only one.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] when there are creases that cannot be used, with the reason; [`ErrorKind::Cancelled`].
-pub(crate) fn detect(hole: &HoleShape, job: &Job<'_>) -> Result<Option<Regions>> {
+/// [`crate::ErrorKind::Geometry`] when there are creases that cannot be used, with the reason; [`crate::ErrorKind::Cancelled`].
+pub(crate) fn detect(hole: &Hole, job: &Job<'_>) -> Result<Option<Regions>> {
     job.ask()?;
     let mut facets = Facets::new(hole);
     // Filtering averages normals. So the angle between two of these will not reach that of a crease.
@@ -82,8 +82,8 @@ pub(crate) fn detect(hole: &HoleShape, job: &Job<'_>) -> Result<Option<Regions>>
         return Ok(None);
     }
     let known: Option<Vec<u32>> = at_rim.into_iter().collect();
-    let Some(at_rim) = known.filter(|_| hole.polygon.len() == hole.points.len()) else {
-        return unusable("the rim has islands or triangles without a neighbor");
+    let Some(at_rim) = known.filter(|_| hole.polygon.len() == hole.rim().len()) else {
+        return unusable("the rim has islands or triangles without a neighbour");
     };
     labels.join_across_wedges(&facets, hole, &at_rim, threshold);
     let at_rim: Vec<u32> = at_rim.iter().map(|&f| labels.of_face[f as usize]).collect();
@@ -103,7 +103,7 @@ pub(crate) fn detect(hole: &HoleShape, job: &Job<'_>) -> Result<Option<Regions>>
 }
 
 fn unusable<T>(reason: &str) -> Result<T> {
-    Err(Error::new(ErrorKind::Geometry, reason.to_owned()))
+    Err(Error::geometry(reason.to_owned()))
 }
 
 /// The angle above which an edge lies on a crease, in radians.
@@ -119,10 +119,10 @@ fn threshold(facets: &Facets<'_>) -> f64 {
 }
 
 /// The known triangle at each edge of the polygon, if it has one.
-fn rim_faces(hole: &HoleShape) -> Vec<Option<u32>> {
+fn rim_faces(hole: &Hole) -> Vec<Option<u32>> {
     let mut halfedges: Vec<(u32, u32, u32)> = Vec::new();
-    let rim = hole.points.len() as u32;
-    for (f, t) in (0..).zip(&hole.surroundings.triangles) {
+    let rim = hole.rim().len() as u32;
+    for (f, t) in (0..).zip(hole.surroundings.triangles()) {
         for k in 0..3 {
             let (a, b) = (t[k], t[(k + 1) % 3]);
             if a < rim && b < rim {
@@ -197,7 +197,7 @@ impl Labels {
     fn join_across_wedges(
         &mut self,
         facets: &Facets<'_>,
-        hole: &HoleShape,
+        hole: &Hole,
         at_rim: &[u32],
         threshold: f64,
     ) {

@@ -8,11 +8,12 @@
 //! Cost: `O(n log n)` for `n` triangles, for sorting the edges.
 
 use crate::error::Result;
+use crate::hole::Hole;
 use crate::job::Job;
+use crate::math::adjacency::CompressedRows;
 use crate::math::{Vec3, cross_normal, unit};
 use crate::mesh::halfedge::{BOUNDARY, NON_MANIFOLD, origin, target};
 use crate::mesh::pairing::pair_halfedges;
-use crate::patch::HoleShape;
 
 /// Rounds of filtering.
 const ROUNDS: usize = 6;
@@ -34,7 +35,7 @@ pub(super) struct SharedEdge {
 
 /// The known triangles with their normals and common edges.
 pub(super) struct Facets<'a> {
-    hole: &'a HoleShape,
+    hole: &'a Hole,
     /// Unit normals; zero for triangles without area.
     pub(super) normals: Vec<Vec3>,
     areas: Vec<f64>,
@@ -44,14 +45,14 @@ pub(super) struct Facets<'a> {
 }
 
 impl<'a> Facets<'a> {
-    pub(super) fn new(hole: &'a HoleShape) -> Self {
+    pub(super) fn new(hole: &'a Hole) -> Self {
         let mut facets = Self {
             hole,
             normals: Vec::new(),
             areas: Vec::new(),
             edges: Vec::new(),
         };
-        for t in &hole.surroundings.triangles {
+        for t in hole.surroundings.triangles() {
             let [a, b, c] = t.map(|v| facets.point(v));
             let normal = cross_normal(&a, &b, &c);
             facets.normals.push(unit(normal));
@@ -72,31 +73,23 @@ impl<'a> Facets<'a> {
     /// # Errors
     /// `Cancelled` when the job is cancelled.
     pub(super) fn find_edges(&mut self, job: &Job<'_>) -> Result<()> {
-        let vertex_count = self.hole.points.len() + self.hole.surroundings.points.len();
+        let vertex_count = self.hole.surroundings.points().len();
         self.edges = shared_edges(self.triangles(), vertex_count, job)?;
         Ok(())
     }
 
     pub(super) fn triangles(&self) -> &[[u32; 3]] {
-        &self.hole.surroundings.triangles
+        self.hole.surroundings.triangles()
     }
 
     /// The position of a vertex of the rim or of the surroundings.
     pub(super) fn point(&self, v: u32) -> Vec3 {
-        let rim = &self.hole.points;
-        match (v as usize).checked_sub(rim.len()) {
-            None => rim[v as usize],
-            Some(outer) => self.hole.surroundings.points[outer],
-        }
+        self.hole.surroundings.point(v)
     }
 
     /// The ring that a triangle belongs to: the lowest level of its vertices.
     pub(super) fn ring(&self, face: usize) -> u32 {
-        let rim = self.hole.points.len();
-        let level = |v: u32| match (v as usize).checked_sub(rim) {
-            None => 0,
-            Some(outer) => self.hole.surroundings.levels[outer],
-        };
+        let level = |v: u32| self.hole.surroundings.levels()[v as usize];
         let [a, b, c] = self.triangles()[face].map(level);
         a.min(b).min(c)
     }
@@ -159,19 +152,18 @@ impl<'a> Facets<'a> {
 
     /// The triangles that share a vertex with each triangle.
     fn neighbors(&self, job: &Job<'_>) -> Result<Vec<Vec<u32>>> {
-        let count = self.hole.points.len() + self.hole.surroundings.points.len();
-        let mut at_vertex: Vec<Vec<u32>> = vec![Vec::new(); count];
-        for (f, t) in (0_u32..).zip(self.triangles()) {
-            job.tick(10)?;
-            for &v in t {
-                at_vertex[v as usize].push(f);
-            }
+        let count = self.hole.surroundings.points().len();
+        let corners = self.triangles().as_flattened();
+        let mut at_vertex = CompressedRows::with_room(count, corners.iter().copied(), 0);
+        for (corner, &v) in (0_u32..).zip(corners) {
+            job.tick(3)?;
+            at_vertex.push(v, corner / 3);
         }
         let around = |(f, t): (u32, &[u32; 3])| {
             job.tick(10)?;
             let mut near: Vec<u32> = t
                 .iter()
-                .flat_map(|&v| at_vertex[v as usize].iter().copied())
+                .flat_map(|&v| at_vertex.of(v).iter().copied())
                 .filter(|&g| g != f)
                 .collect();
             near.sort_unstable();

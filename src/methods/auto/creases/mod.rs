@@ -21,17 +21,19 @@ use super::march::Marcher;
 use super::surface::Implicit;
 use super::surface::candidates::Candidate;
 use super::surface::samples::SampledBand;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::fair::kharmonic::Order;
+use crate::hole::Hole;
 use crate::math::{Vec3, unit};
 use crate::mesh::pairing::pair_halfedges;
 use crate::methods::fair::faired;
 use crate::methods::start::refined;
 use crate::methods::task::Task;
-use crate::patch::{HoleShape, PatchSurface, Surroundings};
+use crate::patch::PatchSurface;
 use crate::quality::Surface;
 use crate::quality::self_intersection::{AppendedPatch, count};
 use crate::quality::spatial::FaceIndex;
+use crate::surroundings::Surroundings;
 use detect::{Regions, detect};
 use partition::{Face, Partition, partition};
 use region::{RegionSurface, fit_regions};
@@ -82,8 +84,8 @@ impl Creases<'_> {
         self.task.job.ask()?;
         let partition = partition(self.task.hole, &regions, &implicit, self.step)?;
         let mut surface = PatchSurface {
-            rim_count: self.task.hole.points.len(),
-            points: self.task.hole.points.clone(),
+            rim_count: self.task.hole.rim().len(),
+            points: self.task.hole.rim().to_vec(),
             triangles: Vec::new(),
         };
         surface.points.extend_from_slice(&partition.points);
@@ -146,9 +148,9 @@ impl Creases<'_> {
         known: &[u32],
         surface: &dyn Implicit,
         patch: &PatchSurface,
-    ) -> HoleShape {
+    ) -> Hole {
         let hole = self.task.hole;
-        let rim_count = hole.points.len();
+        let rim_count = hole.rim().len();
         let boundary = &face.boundary;
         let len = boundary.len();
         let points: Vec<Vec3> = boundary.iter().map(|&v| patch.points[v as usize]).collect();
@@ -172,52 +174,46 @@ impl Creases<'_> {
         };
         let outside_normals = (0..len).map(outside_normal).collect();
         let edge_length = |v: &u32| hole.edge_lengths.get(*v as usize).copied();
-        HoleShape {
+        Hole {
             polygon: (0..len as u32).collect(),
             outside_normals,
             edge_lengths: boundary
                 .iter()
                 .map(|v| edge_length(v).unwrap_or(self.step))
                 .collect(),
-            surroundings: self.surroundings_of(face, known),
+            surroundings: self.surroundings_of(face, &points, known),
+            is_bridge: vec![false; len],
             joined: self.joined_of(face, partition),
-            points,
         }
     }
 
     /// The known triangles of the face's region, with the vertex numbers of the face.
-    fn surroundings_of(&self, face: &Face, known: &[u32]) -> Surroundings {
+    fn surroundings_of(&self, face: &Face, rim: &[Vec3], known: &[u32]) -> Surroundings {
         let around = &self.task.hole.surroundings;
-        let rim_count = self.task.hole.points.len();
-        let len = face.boundary.len() as u32;
-        let mut numbers = vec![None; rim_count + around.points.len()];
+        let rim_count = around.rim().len();
+        let mut numbers = vec![None; around.points().len()];
         for (i, &v) in (0..).zip(&face.boundary) {
             if (v as usize) < rim_count {
                 numbers[v as usize] = Some(i);
             }
         }
-        let mut result = Surroundings::default();
-        for &f in known {
-            let triangle = around.triangles[f as usize].map(|v| {
-                *numbers[v as usize].get_or_insert_with(|| {
-                    let (point, level) = match (v as usize).checked_sub(rim_count) {
-                        None => (self.task.hole.points[v as usize], 1),
-                        Some(outer) => (around.points[outer], around.levels[outer]),
-                    };
-                    result.points.push(point);
-                    result.levels.push(level);
-                    len + result.points.len() as u32 - 1
-                })
-            });
-            result.triangles.push(triangle);
-        }
-        result
+        let (mut points, mut levels) = (rim.to_vec(), vec![0; rim.len()]);
+        let mut numbered = |v: u32| {
+            *numbers[v as usize].get_or_insert_with(|| {
+                points.push(around.point(v));
+                levels.push(around.levels()[v as usize].max(1));
+                points.len() as u32 - 1
+            })
+        };
+        let known = known.iter().map(|&f| around.triangles()[f as usize]);
+        let triangles = known.map(|t| t.map(&mut numbered)).collect();
+        Surroundings::new(rim.len(), points, levels, triangles)
     }
 
     /// Pairs of the face's vertices that no edge inside it may join: the mesh has that edge already, or both lie on
     /// one crease and the face on the other side could make the same edge.
     fn joined_of(&self, face: &Face, partition: &Partition) -> Vec<(u32, u32)> {
-        let rim_count = self.task.hole.points.len() as u32;
+        let rim_count = self.task.hole.rim().len() as u32;
         let len = face.boundary.len() as u32;
         let shares_crease = |a: u32, b: u32| {
             let has_both = |crease: &Vec<u32>| crease.contains(&a) && crease.contains(&b);
@@ -239,21 +235,13 @@ impl Creases<'_> {
     /// Whether the patch intersects itself or the known triangles next to it.
     fn intersects(&self, patch: &PatchSurface) -> Result<bool> {
         let around = &self.task.hole.surroundings;
-        let known: Vec<Vec3> = self
-            .task
-            .hole
-            .points
-            .iter()
-            .chain(&around.points)
-            .copied()
-            .collect();
         let rim_count = patch.rim_count as u32;
-        let shift = around.points.len() as u32;
+        let shift = around.outer().len() as u32;
         let number = |v: u32| if v < rim_count { v } else { v + shift };
         let triangles: Vec<[u32; 3]> = patch.triangles.iter().map(|t| t.map(number)).collect();
         let mesh = Surface {
-            points: &known,
-            triangles: &around.triangles,
+            points: around.points(),
+            triangles: around.triangles(),
         };
         let appended = AppendedPatch {
             points: &patch.points[patch.rim_count..],
@@ -266,7 +254,7 @@ impl Creases<'_> {
 }
 
 fn unusable<T>(reason: &str) -> Result<T> {
-    Err(Error::new(ErrorKind::Geometry, reason.to_owned()))
+    Err(Error::geometry(reason.to_owned()))
 }
 
 /// The geometric mean of the regions' scores, weighted by their numbers of rim edges; zero when no region has a score.

@@ -14,11 +14,11 @@
 //! the original ones.
 
 use super::intersection::{IntersectionCurve, corner};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
+use crate::hole::Hole;
 use crate::math::Vec3;
 use crate::methods::auto::creases::detect::Regions;
 use crate::methods::auto::surface::Implicit;
-use crate::patch::HoleShape;
 
 /// Upper bound on the number of crease ends. A hole with more is filled as a smooth one.
 const MOST_ENDS: usize = 6;
@@ -60,9 +60,9 @@ pub(crate) struct Face {
 /// Cuts the hole along the creases in which the `surfaces` of the regions meet.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] when there are too many creases or they do not meet inside the hole.
+/// [`crate::ErrorKind::Geometry`] when there are too many creases or they do not meet inside the hole.
 pub(crate) fn partition(
-    hole: &HoleShape,
+    hole: &Hole,
     regions: &Regions,
     surfaces: &[&dyn Implicit],
     step: f64,
@@ -78,7 +78,7 @@ pub(crate) fn partition(
     };
     let first = regions.ends.iter().map(|end| RimArc {
         region: regions.at_rim[end.position],
-        start: hole.points[hole.polygon[end.position] as usize],
+        start: hole.rim()[hole.polygon[end.position] as usize],
     });
     let mut plans = Vec::new();
     search.extend(
@@ -96,7 +96,7 @@ pub(crate) fn partition(
 }
 
 fn failed<T>(reason: &str) -> Result<T> {
-    Err(Error::new(ErrorKind::Geometry, reason.to_owned()))
+    Err(Error::geometry(reason.to_owned()))
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -191,7 +191,7 @@ struct CreaseChain {
 
 /// Turns a plan into faces.
 struct Builder<'a> {
-    hole: &'a HoleShape,
+    hole: &'a Hole,
     surfaces: &'a [&'a dyn Implicit],
     step: f64,
     /// Direction into the hole at each crease's end, with the vertex.
@@ -201,12 +201,7 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    fn new(
-        hole: &'a HoleShape,
-        regions: &Regions,
-        surfaces: &'a [&'a dyn Implicit],
-        step: f64,
-    ) -> Self {
+    fn new(hole: &'a Hole, regions: &Regions, surfaces: &'a [&'a dyn Implicit], step: f64) -> Self {
         let (polygon, ends) = (&hole.polygon, &regions.ends);
         let chain = |k: usize| {
             let from = ends[k].position;
@@ -317,7 +312,7 @@ impl<'a> Builder<'a> {
     fn crease(&mut self, ends: [u32; 2], regions: [u32; 2]) -> Option<Vec<u32>> {
         let positions = ends.map(|v| self.position(v));
         let distance = (positions[1] - positions[0]).norm();
-        let rim = self.hole.points.len() as u32;
+        let rim = self.hole.rim().len() as u32;
         if ends.iter().all(|&v| v >= rim) && distance < SAME_CORNER * self.step {
             self.unite(ends[0], ends[1]);
             return Some(vec![ends[0]]);
@@ -351,11 +346,11 @@ impl<'a> Builder<'a> {
 
     fn add(&mut self, p: Vec3) -> u32 {
         self.partition.points.push(p);
-        (self.hole.points.len() + self.partition.points.len() - 1) as u32
+        (self.hole.rim().len() + self.partition.points.len() - 1) as u32
     }
 
     fn position(&self, v: u32) -> Vec3 {
-        let rim = &self.hole.points;
+        let rim = self.hole.rim();
         match (v as usize).checked_sub(rim.len()) {
             None => rim[v as usize],
             Some(inner) => self.partition.points[inner],
@@ -376,7 +371,7 @@ impl<'a> Builder<'a> {
 
     /// Removes the points that no face uses and renumbers the others.
     fn drop_unused(&mut self) {
-        let rim = self.hole.points.len();
+        let rim = self.hole.rim().len();
         let mut is_used = vec![false; self.partition.points.len()];
         for &v in self.partition.faces.iter().flat_map(|f| &f.boundary) {
             if let Some(inner) = (v as usize).checked_sub(rim) {

@@ -4,11 +4,11 @@
 //! crease itself. Then the patch continues the region on the other side of the crease, and the end of the crease moves
 //! along the rim to the vertex where it really enters the hole.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
+use crate::hole::Hole;
 use crate::math::unit;
 use crate::methods::auto::creases::detect::Regions;
 use crate::methods::auto::surface::{Implicit, project};
-use crate::patch::HoleShape;
 
 /// A rim vertex lies on a crease if its distance from both surfaces is below this, in mean rim edge lengths.
 const ON_SURFACE: f64 = 0.1;
@@ -22,13 +22,13 @@ const ALONG: f64 = 0.7;
 /// # Errors
 /// [`ErrorKind::Geometry`] when no rim edge is left to a region.
 pub(crate) fn slide_ends(
-    hole: &HoleShape,
+    hole: &Hole,
     regions: &mut Regions,
     surfaces: &[&dyn Implicit],
     step: f64,
 ) -> Result<()> {
     let len = hole.polygon.len();
-    let point = |position: usize| hole.points[hole.polygon[position % len] as usize];
+    let point = |position: usize| hole.rim()[hole.polygon[position % len] as usize];
     for k in 0..regions.ends.len() {
         for _ in 0..len {
             let end = regions.ends[k];
@@ -64,6 +64,6 @@ pub(crate) fn slide_ends(
         Ok(())
     } else {
         let reason = "a region beside a crease ends at the rim";
-        Err(Error::new(ErrorKind::Geometry, reason.to_owned()))
+        Err(Error::geometry(reason.to_owned()))
     }
 }

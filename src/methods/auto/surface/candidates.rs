@@ -240,7 +240,7 @@ mod tests {
     use super::*;
     use crate::job::UNLIMITED;
     use crate::math::Vec3;
-    use crate::surroundings::Band;
+    use crate::surroundings::fits::QuadricFits;
 
     /// The surroundings of a round hole in a paraboloid, with ripples of height `ripple`, five edges long. At the rim
     /// the paraboloid has risen by a twentieth of the hole's width. All is scaled by `flatness` along one axis.
@@ -250,12 +250,12 @@ mod tests {
             let rise = 0.1 / radius * (x * x + y * y);
             rise + ripple * ((1.2 * x + phase).sin() * (1.1 * y - phase).sin())
         });
-        let around = &mut shape.surroundings.points;
-        for p in shape.points.iter_mut().chain(around) {
-            p.y *= flatness;
-        }
-        let band = Band::new(&shape, &UNLIMITED).unwrap();
-        SampledBand::new(band, &shape, 1.0, true, &UNLIMITED)
+        let mut points = shape.surroundings.points().to_vec();
+        points.iter_mut().for_each(|p| p.y *= flatness);
+        shape.surroundings = shape.surroundings.moved(points);
+        let shape = Box::leak(Box::new(shape));
+        let fits = QuadricFits::new(&shape.surroundings, &UNLIMITED).unwrap();
+        SampledBand::new(fits, shape, 1.0, true, &UNLIMITED)
     }
 
     /// How far off the surface is in the middle, over eight phases of the ripples.

@@ -198,8 +198,8 @@ fn left_out_distance(samples: &mut SampledBand, r: u32, surface: &dyn Implicit) 
     let mut count = 0.0;
     for &v in &vertices {
         samples.job.tick(500)?;
-        let distance = project::distance(surface, &samples.band.points[v as usize]) / samples.step;
-        // NaN counts as far away.
+        let distance = project::distance(surface, &samples.fits.around.point(v)) / samples.step;
+        // Not a number counts as far off.
         squares += if distance < FARTHEST {
             distance * distance
         } else {
@@ -215,13 +215,14 @@ mod tests {
     use super::super::fixtures::rings_around;
     use super::*;
     use crate::job::UNLIMITED;
-    use crate::surroundings::Band;
+    use crate::surroundings::fits::QuadricFits;
 
     /// Rings round the hole of a paraboloid of this steepness.
     fn sampled(steepness: f64) -> SampledBand<'static> {
         let hole = rings_around(24, |x, y| steepness * (x * x + y * y));
-        let band = Band::new(&hole, &UNLIMITED).unwrap();
-        SampledBand::new(band, &hole, 1.0, true, &UNLIMITED)
+        let hole = Box::leak(Box::new(hole));
+        let fits = QuadricFits::new(&hole.surroundings, &UNLIMITED).unwrap();
+        SampledBand::new(fits, hole, 1.0, true, &UNLIMITED)
     }
 
     #[test]

@@ -2,8 +2,9 @@
 
 use super::RINGS;
 use super::{Implicit, Sample};
+use crate::hole::Hole;
 use crate::math::{Vec3, unit};
-use crate::patch::{HoleShape, Surroundings};
+use crate::surroundings::Surroundings;
 use nalgebra::Rotation3;
 use std::f64::consts::TAU;
 
@@ -103,7 +104,7 @@ pub(crate) fn deviation(fitted: &impl Implicit, surface: Parametric) -> (f64, f6
 
 /// The rings of triangles round a round hole with `around` edges, 1.05 long, in the surface with the given height above
 /// the plane.
-pub(crate) fn rings_around(around: u32, height: impl Fn(f64, f64) -> f64) -> HoleShape {
+pub(crate) fn rings_around(around: u32, height: impl Fn(f64, f64) -> f64) -> Hole {
     let point = |ring: u32, k: u32| {
         let radius = f64::from(around) / 6.0 + f64::from(ring);
         let (sin, cos) = (TAU * f64::from(k) / f64::from(around)).sin_cos();
@@ -125,14 +126,14 @@ pub(crate) fn rings_around(around: u32, height: impl Fn(f64, f64) -> f64) -> Hol
         ];
         [[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]]
     });
-    HoleShape {
-        points: ring(0).collect(),
+    Hole {
         polygon: (0..around).collect(),
-        surroundings: Surroundings {
-            points: (1..=RINGS).flat_map(&ring).collect(),
-            levels: (1..=RINGS).flat_map(|r| vec![r; around as usize]).collect(),
-            triangles: triangles.collect(),
-        },
-        ..HoleShape::default()
+        surroundings: Surroundings::new(
+            around as usize,
+            (0..=RINGS).flat_map(&ring).collect(),
+            (0..=RINGS).flat_map(|r| vec![r; around as usize]).collect(),
+            triangles.collect(),
+        ),
+        ..Hole::default()
     }
 }

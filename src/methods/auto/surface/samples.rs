@@ -8,10 +8,10 @@
 
 use super::{RINGS, Sample};
 use crate::error::Result;
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::Vec3;
-use crate::patch::HoleShape;
-use crate::surroundings::Band;
+use crate::surroundings::fits::QuadricFits;
 use std::ops::Range;
 
 /// Lower bound on the distance of two samples, in mean rim edge lengths. Closer ones make the systems ill-conditioned.
@@ -45,7 +45,7 @@ const LAST_NOISE_LEVEL: u32 = 7;
 
 /// The mesh round a hole, sampled on demand.
 pub(crate) struct SampledBand<'a> {
-    pub(crate) band: Band,
+    pub(crate) fits: QuadricFits<'a>,
     /// Mean length of the edges at the rim.
     pub(crate) step: f64,
     /// Edges of the polygon that bounds the patch.
@@ -67,16 +67,16 @@ impl<'a> SampledBand<'a> {
     /// Estimates the noise. `band` are the surroundings of `hole` or a part of them; `step` is the mean edge length at
     /// the rim. With `use_jets`, normals come from quadrics through the neighbors, otherwise from the triangles.
     pub(crate) fn new(
-        band: Band,
-        hole: &HoleShape,
+        fits: QuadricFits<'a>,
+        hole: &Hole,
         step: f64,
         use_jets: bool,
         job: &'a Job<'a>,
     ) -> Self {
-        let count = band.points.len();
-        let noise = band.noise(LAST_NOISE_LEVEL) / step;
+        let count = fits.around.points().len();
+        let noise = fits.noise(LAST_NOISE_LEVEL) / step;
         Self {
-            band,
+            fits,
             step,
             rim_edges: hole.polygon.len(),
             width: hole.width() / step,
@@ -124,13 +124,13 @@ impl<'a> SampledBand<'a> {
         let v = vertex as usize;
         let normal = *self.normals[v].get_or_insert_with(|| {
             if self.use_jets {
-                self.band.interpolating_normal(vertex)
+                self.fits.interpolating_normal(vertex)
             } else {
-                self.band.triangle_normals[v]
+                self.fits.normals[v]
             }
         });
         Sample {
-            point: self.band.points[v],
+            point: self.fits.around.point(vertex),
             normal,
         }
     }
@@ -144,7 +144,7 @@ impl<'a> SampledBand<'a> {
         {
             return sample;
         }
-        let sample = match self.band.smoothed(vertex, rings) {
+        let sample = match self.fits.smoothed(vertex, rings) {
             Some(s) => Sample {
                 point: s.point,
                 normal: s.normal,
@@ -173,15 +173,13 @@ impl<'a> SampledBand<'a> {
     }
 
     fn spread_anew(&self, levels: Range<u32>, most: usize) -> Result<Vec<u32>> {
-        let mut vertices = self.band.vertices_in(levels);
-        vertices.retain(|&v| self.band.triangle_normals[v as usize] != Vec3::zeros());
+        let mut vertices = self.fits.around.vertices_in(levels);
+        vertices.retain(|&v| self.fits.normals[v as usize] != Vec3::zeros());
         if vertices.is_empty() {
             return Ok(vertices);
         }
-        let points: Vec<Vec3> = vertices
-            .iter()
-            .map(|&v| self.band.points[v as usize])
-            .collect();
+        let point = |&v: &u32| self.fits.around.point(v);
+        let points: Vec<Vec3> = vertices.iter().map(point).collect();
         let middle = points.iter().sum::<Vec3>() / points.len() as f64;
         let mut reach: Vec<f64> = points.iter().map(|p| (p - middle).norm_squared()).collect();
         let closest = (CLOSEST * self.step).powi(2);

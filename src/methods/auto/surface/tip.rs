@@ -11,9 +11,8 @@ use super::Implicit;
 use super::candidates::Candidate;
 use super::choice::{Score, score_of};
 use super::project::way_out;
+use crate::hole::Hole;
 use crate::math::Vec3;
-use crate::patch::HoleShape;
-use crate::surroundings::Band;
 use nalgebra::{Matrix3, SymmetricEigen};
 
 /// Lower bound on the mean angle, in radians, between the normals of the triangles at the rim and the normal of the
@@ -96,8 +95,8 @@ impl Tip {
 }
 
 /// The stump round the hole; `None` if the hole is not the missing tip of a horn.
-pub(crate) fn find_stump(hole: &HoleShape, band: &Band) -> Option<Stump> {
-    let rim = &hole.points;
+pub(crate) fn find_stump(hole: &Hole) -> Option<Stump> {
+    let (rim, around) = (hole.rim(), &hole.surroundings);
     let normals: Vec<Vec3> = hole.outside_normals.iter().flatten().copied().collect();
     if rim.len() >= SMALL || normals.is_empty() {
         return None;
@@ -112,9 +111,10 @@ pub(crate) fn find_stump(hole: &HoleShape, band: &Band) -> Option<Stump> {
     };
     let center = mean(&mut rim.iter().copied());
     let behind = mean(
-        &mut (0..band.points.len())
-            .filter(|&v| band.levels[v] == 1)
-            .map(|v| band.points[v]),
+        &mut around
+            .vertices_in(1..2)
+            .into_iter()
+            .map(|v| around.point(v)),
     );
     let mut spread = Matrix3::zeros();
     for p in rim {

@@ -1,6 +1,7 @@
 //! The axis of a primitive: how a surface of revolution changes when its axis moves, and how the axis is estimated from
 //! samples with normals.
 
+use crate::math::frame::axes_across;
 use crate::math::{Vec3, unit};
 use crate::methods::auto::surface::Sample;
 use nalgebra::{Matrix3, SymmetricEigen};
@@ -28,7 +29,7 @@ impl Axis {
 
     /// Two unit vectors that make a right-handed frame with the direction.
     pub(super) fn across(&self) -> [Vec3; 2] {
-        across(&self.direction)
+        axes_across(&self.direction)
     }
 
     /// The axis turned by two small angles.
@@ -83,13 +84,6 @@ impl Revolved {
 }
 
 /// Two unit vectors that make a right-handed frame with `direction`.
-pub(super) fn across(direction: &Vec3) -> [Vec3; 2] {
-    let least = direction.iamin();
-    let u = unit(direction.cross(&Vec3::ith(least, 1.0)));
-    [u, direction.cross(&u)]
-}
-
-/// `1 / length`; zero for length zero, at the focus of a surface.
 pub(super) fn inverse(length: f64) -> f64 {
     if length > 0.0 { length.recip() } else { 0.0 }
 }

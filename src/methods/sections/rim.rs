@@ -77,7 +77,7 @@ pub(super) fn check_simple(hole: &HoleShape) -> Result<()> {
     }
     Err(Error::new(
         ErrorKind::Topology,
-        "the hole has an island or a vertex that its rim passes twice, which HPDE cannot section",
+        "the hole has an island, or its rim passes a vertex twice; methods with sections need one simple curve",
     ))
 }
 

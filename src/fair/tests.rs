@@ -1,4 +1,4 @@
-//! What fairing must do: reproduce what is flat, minimize its energy, meet the rim.
+//! Tests: fairing keeps flat patches flat, minimizes its energy, and meets the rim.
 
 use super::kharmonic::{Order, extend_from_rim, fair};
 use super::laplacian::{FairingDomain, Weights};

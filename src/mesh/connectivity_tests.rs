@@ -1,4 +1,4 @@
-//! Connectivity against a search through all pairs of halfedges.
+//! Tests: compares the connectivity with a search through all pairs of halfedges.
 
 use super::connectivity::Connectivity;
 use super::defects::MeshDefects;

@@ -1,4 +1,4 @@
-//! Rings of triangles round a rim against a breadth-first search over the whole mesh.
+//! Tests: compares the rings of triangles round a rim with a breadth-first search over the whole mesh.
 
 use super::halfedge::DEGENERATE;
 use super::rings::{FanEnd, Reach, Rings, collect_rings, walk_fan};

@@ -1,4 +1,4 @@
-//! The method `centroid`: a fan of triangles round the centroid of the rim, the simplest patch with a new vertex.
+//! A fan round the centroid: the simplest patch with a new vertex.
 
 use super::method::Method;
 use super::spec::MethodSpec;
@@ -17,8 +17,8 @@ pub(super) const CENTROID: MethodSpec = MethodSpec {
 
 /// Joins every edge of the rim to one new vertex at the mean of the rim's vertices.
 ///
-/// O(m) for m edges. Not guaranteed: that the patch is free of intersections. On a planar rim it is, if the rim is
-/// star-shaped round the centroid.
+/// O(m) for m edges. Not guaranteed: that the patch is free of intersections; it is where the centroid sees the
+/// whole rim.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Topology`] for a rim with islands, [`crate::ErrorKind::Limit`] when no new vertex is allowed.

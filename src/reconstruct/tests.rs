@@ -1,4 +1,4 @@
-//! Surfaces from points whose answer is known, and everything that can be wrong with points.
+//! Tests: reconstructs surfaces that are known, and gives wrong and degenerate points.
 
 use super::*;
 use crate::boundary::loops::BoundaryLoops;

@@ -59,7 +59,7 @@ pub(super) fn check(
     let reach = limits.reach * diameter;
     if patch.points.iter().any(|p| (p - middle).norm() > reach) {
         return Err(Error::geometry(
-            "the predicted patch runs away from the hole",
+            "the predicted patch goes too far away from the hole",
         ));
     }
     if !patch.points.iter().flatten().all(|x| x.is_finite()) {
@@ -81,7 +81,7 @@ pub(super) fn check(
     task.job.ask()?;
     if bent > BENT_SHARE && bent > bent_share(task, faired) {
         return Err(Error::geometry(
-            "the predicted patch leaves the rim at an angle",
+            "the predicted patch is bent against the mesh along the rim",
         ));
     }
     Ok(())

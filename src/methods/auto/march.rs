@@ -92,7 +92,7 @@ impl Marcher<'_> {
             let longest = self.project(&mut patch.points[rim_count..], STEPS, limit)?;
             if !patch.points.iter().flatten().all(|x| x.is_finite()) {
                 return Err(Error::geometry(
-                    "the patch ran away from the predicted surface",
+                    "the patch diverged from the predicted surface",
                 ));
             }
             self.unfold(&mut patch, limit)?;

@@ -126,7 +126,8 @@ impl Auto<'_> {
             None => candidate.fit_to_rim(&mut samples)?,
         };
         self.task.job.ask()?;
-        let surface = surface.ok_or_else(|| Error::geometry("no surface fits the surroundings"))?;
+        let surface =
+            surface.ok_or_else(|| Error::geometry("no surface fits the mesh round the hole"))?;
         let (_, diameter) = self.task.hole.middle_and_diameter();
         let tip = stump.and_then(|s| s.tip_on(surface.as_ref(), diameter, TIP_REACH * diameter));
         if let Some(prediction) = &mut self.prediction {
@@ -255,7 +256,9 @@ impl Auto<'_> {
             .and_then(|_| tip::closing_candidate(&scores));
         let chosen = closing
             .or_else(|| choice::choose(&scores, is_noisy))
-            .ok_or_else(|| Error::geometry("the surroundings are too small to predict from"))?;
+            .ok_or_else(|| {
+                Error::geometry("the mesh round the hole is too small to predict a surface")
+            })?;
         Ok((chosen, scores, stump))
     }
 

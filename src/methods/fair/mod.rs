@@ -44,7 +44,7 @@ pub(super) const FAIR_C2: MethodSpec = MethodSpec {
     make: |task| {
         if task.known().is_some_and(|p: Prediction| p.is_noisy()) {
             return Err(Error::geometry(
-                "the surroundings are too noisy to read curvature from",
+                "the mesh round the hole is too noisy to estimate curvature",
             ));
         }
         faired(task, Order::Three)

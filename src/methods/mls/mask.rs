@@ -1,7 +1,8 @@
 //! The positions of samples inside a hole: the points of a square grid in the domain that lie inside the rim.
 //!
-//! The paper calls the region round the hole the mask. Each grid line is cut with the rim; the points between two
-//! crossings are inside. Points too near to the rim are left out.
+//! Each grid line is cut with the rim; the points between two crossings are inside. Points too near to the rim are left
+//! out. Source: J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed from point clouds",
+//! 2007, section 4.3, which calls the rim's surroundings the mask.
 
 use crate::error::{Error, Result};
 use crate::job::Job;

@@ -1,4 +1,4 @@
-//! Patches over surfaces that are known.
+//! Tests: fills holes in analytic surfaces and measures the distance of the patch from them.
 
 use super::*;
 use crate::job::Job;

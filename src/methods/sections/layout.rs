@@ -103,7 +103,9 @@ impl Scene<'_> {
         // The left side of the line, in the near plane.
         let down = near.normal.cross(&line);
         if down.dot(&(near.center - origin)) > 0.0 {
-            return Err(refusal("the two planes of the rim do not unfold"));
+            return Err(refusal(
+                "the two planes of the rim cannot be unfolded: their parts lie on the wrong sides",
+            ));
         }
         let project = |p: &Vec3, far: bool| {
             let d = p - origin;

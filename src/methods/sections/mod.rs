@@ -1,9 +1,10 @@
 //! Fills a hole with curves that run across it from rim to rim. The methods `hpde`, `grey` and `nurbs` share this; they
 //! differ only in how they predict the points of the curves.
 //!
-//! Pairs of points that face each other across the rim are chosen. Through each pair goes a plane, and in this plane a
-//! curve, the section. The points of all sections are triangulated together in a plane. The result is smoothed, short
-//! edges are collapsed, and edges are swapped for better angles.
+//! First, pairs of rim points that face each other across the hole are chosen. Each pair defines a plane. In this
+//! plane, a curve from one point to the other is predicted; this curve is a section. The points of all sections are
+//! triangulated together in a plane. Then the patch is smoothed, short edges are collapsed, and edges are swapped for
+//! better angles.
 //!
 //! Source: W.-C. Xie, X.-F. Zou, "A triangulation-based hole patching method using differential evolution",
 //! Computer-Aided Design 45, 2013. The files follow its seven steps. `docs/methods/hpde.md` lists the differences from

@@ -76,7 +76,7 @@ pub(super) fn check_simple(hole: &Hole) -> Result<()> {
         return Ok(());
     }
     Err(Error::topology(
-        "the hole has an island or a vertex that its rim passes twice, which HPDE cannot section",
+        "the hole has an island, or its rim passes a vertex twice; methods with sections need one simple curve",
     ))
 }
 

@@ -83,7 +83,7 @@ pub(crate) fn detect(hole: &Hole, job: &Job<'_>) -> Result<Option<Regions>> {
     }
     let known: Option<Vec<u32>> = at_rim.into_iter().collect();
     let Some(at_rim) = known.filter(|_| hole.polygon.len() == hole.rim().len()) else {
-        return unusable("the rim has islands or triangles without a neighbour");
+        return unusable("the rim has islands, or edges without a triangle");
     };
     labels.join_across_wedges(&facets, hole, &at_rim, threshold);
     let at_rim: Vec<u32> = at_rim.iter().map(|&f| labels.of_face[f as usize]).collect();
@@ -292,11 +292,11 @@ impl Crease {
     fn check(&self) -> Result<()> {
         let total: f64 = self.bends.iter().map(|b| b.0).sum();
         if self.bends.is_empty() || total <= 0.0 {
-            return unusable("a crease ends at the rim");
+            return unusable("a crease has no edge behind the rim");
         }
         let convex: f64 = self.bends.iter().filter(|b| b.1).map(|b| b.0).sum();
         if convex.max(total - convex) < SAME_BEND * total {
-            return unusable("a crease bends to both sides");
+            return unusable("a crease is convex in one part and concave in another");
         }
         let (mut straight, mut along) = (0.0, 0.0);
         for p in self.points.windows(3) {
@@ -304,7 +304,7 @@ impl Crease {
             along += (p[2] - p[1]).norm() + (p[1] - p[0]).norm();
         }
         if straight < STRAIGHTEST_SHARE * along {
-            return unusable("a crease zigzags");
+            return unusable("a crease zigzags: the edges of the mesh do not follow it");
         }
         Ok(())
     }

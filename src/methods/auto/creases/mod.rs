@@ -1,8 +1,8 @@
 //! Continues creases of the mesh across a hole, so that sharp edges stay sharp.
 //!
-//! 1. Find the smooth regions round the hole, and where the creases between them meet the rim ([`detect`]).
-//! 2. Fit one surface to each region ([`region`]).
-//! 3. Cut the hole into faces along the curves in which these surfaces meet ([`partition`]).
+//! 1. Find the smooth regions round the hole, and where the creases between them meet the rim (`detect`).
+//! 2. Fit one surface to each region (`region`).
+//! 3. Cut the hole into faces along the curves in which these surfaces meet (`partition`).
 //! 4. Fill each face like a hole of its own. The vertices on its creases do not move, so the faces fit together.
 //!
 //! Creases are used only where they explain the surroundings at least as well as one smooth surface does: the score of

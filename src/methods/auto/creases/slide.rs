@@ -63,7 +63,7 @@ pub(crate) fn slide_ends(
     if (0..len).filter(|&i| is_end(i)).eq(positions.by_ref()) {
         Ok(())
     } else {
-        let reason = "a region beside a crease ends at the rim";
+        let reason = "no rim edge is left to a region beside a crease";
         Err(Error::geometry(reason.to_owned()))
     }
 }

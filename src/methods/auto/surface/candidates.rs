@@ -69,7 +69,7 @@ pub enum Candidate {
 }
 
 impl Candidate {
-    /// All candidates, in the order in which they are scored. A gate ([`Candidate::gate`]) comes before the candidates
+    /// All candidates, in the order in which they are scored. A gate (`Candidate::gate`) comes before the candidates
     /// that need it, and the cubic kernels before the quintic one, which is compared with them.
     pub const ALL: [Self; 11] = [
         Self::Quadric,

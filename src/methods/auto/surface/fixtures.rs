@@ -1,4 +1,4 @@
-//! Samples of analytic surfaces for the tests.
+//! Samples of analytic surfaces, for the tests of this module.
 
 use super::RINGS;
 use super::{Implicit, Sample};

@@ -386,7 +386,7 @@ fn wrong_pointers_and_handles_are_refused_by_every_function() {
         mesh holefill_mesh_fill_all();
     };
     let mut expected = declared();
-    assert!(expected.len() > 50, "{}", expected.len());
+    assert!(expected.len() >= 50, "{}", expected.len());
     expected.retain(|(_, arguments)| !arguments.is_empty());
     expected.sort();
     tested.sort();

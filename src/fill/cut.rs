@@ -50,14 +50,14 @@ pub(crate) fn cut_out(
         polygon.join(mesh, Polygon::of_loop(mesh, island));
     }
     job.ask()?;
-    let rim = distinct(&polygon.vertices);
+    let rim = distinct(polygon.0.iter().map(|e| e.0));
     let rim_index = LocalIndex::new(rim.iter().zip(0..).map(|(&v, i)| (v, i)).collect());
     let count = rim.len() as f64;
     let perimeter = outer.perimeter + islands.iter().map(|l| l.perimeter).sum::<f64>();
     let place = MeshPlace {
         center: rim.iter().map(|&v| mesh.point(v)).sum::<Vec3>() / count,
         scale: perimeter / count,
-        outside_faces: polygon.halfedges.iter().map(|h| h.map(|h| h / 3)).collect(),
+        outside_faces: polygon.0.iter().map(|e| e.1.map(|h| h / 3)).collect(),
         halfedges: rims.iter().flat_map(|l| &l.halfedges).copied().collect(),
         rim_index,
         rim,
@@ -79,12 +79,12 @@ pub(crate) fn cut_out(
         (surroundings, _) = place.surroundings(mesh, reach, job)?;
     }
     job.ask()?;
-    let local = |&v: &u32| place.rim_index.get(v);
+    let local = |e: &(u32, _)| place.rim_index.get(e.0);
     let hole = Hole {
         edge_lengths: surroundings.edge_lengths(),
         surroundings,
-        polygon: polygon.vertices.iter().filter_map(local).collect(),
-        is_bridge: polygon.halfedges.iter().map(Option::is_none).collect(),
+        polygon: polygon.0.iter().filter_map(local).collect(),
+        is_bridge: polygon.0.iter().map(|e| e.1.is_none()).collect(),
         outside_normals,
         joined,
     };
@@ -184,11 +184,8 @@ impl MeshPlace {
     }
 }
 
-/// Vertices of the mesh in the patch's orientation, with the boundary halfedge along each edge.
-struct Polygon {
-    vertices: Vec<u32>,
-    halfedges: Vec<Option<u32>>,
-}
+/// Vertices of the mesh in the patch's orientation, each with the boundary halfedge along the edge that starts there.
+struct Polygon(Vec<(u32, Option<u32>)>);
 
 impl Polygon {
     /// The loop run backwards: the triangles of the patch lie on the other side of it. It begins where the loop is
@@ -203,23 +200,20 @@ impl Polygon {
                 (first, farthest) = (i, distance(i));
             }
         }
-        let vertices = (0..n).map(|i| l.vertices[(first + n - i) % n]).collect();
-        let halfedges = (0..n)
-            .map(|i| Some(l.halfedges[(first + n - 1 - i) % n]))
-            .collect();
-        Self {
-            vertices,
-            halfedges,
-        }
+        let edge = |i: usize| {
+            let halfedge = l.halfedges[(first + n - 1 - i) % n];
+            (l.vertices[(first + n - i) % n], Some(halfedge))
+        };
+        Self((0..n).map(edge).collect())
     }
 
     /// Joins `inner` along a bridge between the two vertices that are closest to each other; where the
     /// polygons share a vertex there is no bridge.
-    fn join(&mut self, mesh: &TriMesh, mut inner: Self) {
+    fn join(&mut self, mesh: &TriMesh, Self(mut inner): Self) {
         let (mut at, mut inner_at, mut shortest) = (0, 0, f64::INFINITY);
-        for (i, &v) in self.vertices.iter().enumerate() {
+        for (i, &(v, _)) in self.0.iter().enumerate() {
             let p = mesh.point(v);
-            for (j, &w) in inner.vertices.iter().enumerate() {
+            for (j, &(w, _)) in inner.iter().enumerate() {
                 let distance = if v == w {
                     -1.0
                 } else {
@@ -230,26 +224,14 @@ impl Polygon {
                 }
             }
         }
-        inner.vertices.rotate_left(inner_at);
-        inner.halfedges.rotate_left(inner_at);
-        let is_shared = self.vertices[at] == inner.vertices[0];
-        let (tail, tail_halfedges) = (self.vertices.split_off(at), self.halfedges.split_off(at));
-        if is_shared {
-            // ... at | inner | at ...: the shared vertex begins both parts.
-            self.vertices.append(&mut inner.vertices);
-            self.halfedges.append(&mut inner.halfedges);
-        } else {
-            // ... at -> inner .. inner start -> at ...: the bridge is passed both ways.
-            let start = inner.vertices[0];
-            self.vertices.push(tail[0]);
-            self.halfedges.push(None);
-            self.vertices.append(&mut inner.vertices);
-            self.vertices.push(start);
-            self.halfedges.append(&mut inner.halfedges);
-            self.halfedges.push(None);
+        inner.rotate_left(inner_at);
+        let (from, to) = (self.0[at].0, inner[0].0);
+        // ... from -> to .. inner .. to -> from ...: the bridge is passed both ways.
+        if from != to {
+            inner.insert(0, (from, None));
+            inner.push((to, None));
         }
-        self.vertices.extend(tail);
-        self.halfedges.extend(tail_halfedges);
+        self.0.splice(at..at, inner);
     }
 }
 
@@ -268,8 +250,8 @@ fn joined_rim_vertices(mesh: &TriMesh, rim: &[u32], rim_index: &LocalIndex) -> V
 }
 
 /// The values in the order of their first occurrence.
-fn distinct(values: &[u32]) -> Vec<u32> {
-    let mut places: Vec<(u32, usize)> = values.iter().copied().zip(0..).collect();
+fn distinct(values: impl Iterator<Item = u32>) -> Vec<u32> {
+    let mut places: Vec<(u32, usize)> = values.zip(0..).collect();
     places.sort_unstable();
     places.dedup_by_key(|&mut (value, _)| value);
     places.sort_unstable_by_key(|&(_, place)| place);

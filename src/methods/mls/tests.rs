@@ -59,6 +59,7 @@ fn hole_in_grid(f: impl Fn(f64, f64) -> Vec3, n: i32, radius: f64) -> Hole {
     let levels = levels.collect();
     Hole {
         polygon: (0..rim.len() as u32).collect(),
+        is_bridge: vec![false; rim.len()],
         surroundings: Surroundings::new(rim.len(), points, levels, triangles),
         ..Hole::default()
     }

@@ -75,13 +75,9 @@ impl Vicinity {
 /// [`crate::ErrorKind::Topology`] when two of them share a vertex.
 pub(crate) fn rim_loops(hole: &Hole) -> Result<Vec<Vec<u32>>> {
     let m = hole.polygon.len();
-    let edge = |i: usize| (hole.polygon[i], hole.polygon[(i + 1) % m]);
-    let mut edges: Vec<(u32, u32)> = (0..m).map(edge).collect();
-    edges.sort_unstable();
-    // The polygon passes a bridge in both directions.
-    let is_bridge = |&(a, b): &(u32, u32)| edges.binary_search(&(b, a)).is_ok();
     let mut next: Vec<Option<u32>> = vec![None; hole.rim().len()];
-    for (a, b) in edges.iter().copied().filter(|e| !is_bridge(e)) {
+    for i in (0..m).filter(|&i| !hole.is_bridge[i]) {
+        let (a, b) = (hole.polygon[i], hole.polygon[(i + 1) % m]);
         if next[a as usize].replace(b).is_some() {
             let message = "an island touches the rim in a vertex";
             return Err(Error::topology(message));

@@ -69,7 +69,7 @@ pub(crate) struct HoleReach {
     /// Rings of triangles, all of each.
     pub(crate) rings: u32,
     /// Besides, the triangles that touch a vertex nearer to the rim than so many sampling steps (see
-    /// [`Hole::sampling_step`](crate::hole::Hole::sampling_step)).
+    /// [`Surroundings::sampling_step`]).
     pub(crate) steps: f64,
 }
 

@@ -43,7 +43,7 @@ fn make(task: &Task<'_>) -> Result<PatchSurface> {
 /// The points of HPDE: between the arcs, at heights by differential evolution or by its start value alone.
 ///
 /// # Errors
-/// [`ErrorKind::Cancelled`].
+/// [`crate::ErrorKind::Cancelled`].
 fn evolved(
     sections: &[Prepared],
     options: &HpdeOptions,

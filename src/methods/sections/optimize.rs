@@ -235,7 +235,7 @@ impl<'a> Editor<'a> {
     /// Swaps edges as long as that raises the smaller one of the smallest angles at an edge, and returns how many.
     ///
     /// # Errors
-    /// [`ErrorKind::Cancelled`].
+    /// [`crate::ErrorKind::Cancelled`].
     pub(super) fn swap_edges(&mut self, job: &Job<'_>) -> Result<usize> {
         let mut waiting = self.interior_edges();
         // Taken from the end: the order of the sorted edges.

@@ -48,7 +48,8 @@ pub use boundary::select::Selection;
 pub use error::{Error, ErrorKind, Result};
 pub use fill::progress::{Progress, ProgressCallback};
 pub use fill::report::{Attempt, FillReport, HoleReport, HoleStatus};
-pub use fill::session::{FillPlan, FillSession, PlannedPatch, Target, fill_holes};
+pub use fill::session::at_once::fill_holes;
+pub use fill::session::{FillPlan, FillSession, PlannedPatch, Target};
 pub use mesh::attributes::{
     Attribute, AttributeValues, Attributes, ListValues, ScalarType, ScalarValues,
 };

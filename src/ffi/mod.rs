@@ -9,7 +9,7 @@
 //!
 //! Every function runs in a guard that turns panics into a status and failures into error objects.
 //!
-//! The files lie in layers. Each uses only files that stand before it:
+//! The files lie in layers. Each uses only files that are named before it:
 //! `status`, `types`, `failure`; `sync`, `handles`, `shared`, `objects`, `guard`; `rows`, `input`, `output`, `text`, `structs`;
 //! `version`, `error`, `callbacks`, `options`, `attributes`, `mesh`, `points`, `loops`, `fill`, `plan`, `report`.
 #![allow(unsafe_code)]

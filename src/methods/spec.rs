@@ -71,7 +71,7 @@ pub(crate) struct HoleReach {
     /// Number of complete rings of triangles.
     pub(crate) rings: u32,
     /// In addition, the triangles with a vertex nearer to the rim than this. Unit: the sampling step, see
-    /// [`HoleShape::sampling_step`](crate::patch::HoleShape::sampling_step).
+    /// [`Surroundings::sampling_step`].
     pub(crate) steps: f64,
 }
 

@@ -32,7 +32,7 @@ impl Cloud {
     /// Takes the distinct points of `positions`: of several points at one position, the first.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] when a coordinate is not finite, the extent overflows, or there are more
+    /// [`crate::ErrorKind::InvalidInput`] when a coordinate is not finite, the extent overflows, or there are more
     /// points than 32-bit indices can name.
     pub(super) fn new(positions: &[[f64; 3]]) -> Result<Self> {
         if positions.len() >= u32::MAX as usize {
@@ -95,7 +95,7 @@ impl Cloud {
     /// The `count` nearest neighbors of every point.
     ///
     /// # Errors
-    /// [`ErrorKind::Cancelled`] when the job is cancelled.
+    /// [`crate::ErrorKind::Cancelled`] when the job is cancelled.
     pub(super) fn all_nearest(&self, count: usize, job: &Job<'_>) -> Result<NearestPoints> {
         let count = count.min(self.len().saturating_sub(1));
         let lists = for_all(self.len(), job, |v| self.nearest(v, count))?;
@@ -129,7 +129,7 @@ impl NearestPoints {
 /// Computes `make(v)` for all `v` below `count` in parallel. Results are in order.
 ///
 /// # Errors
-/// [`ErrorKind::Cancelled`] when the job is cancelled.
+/// [`crate::ErrorKind::Cancelled`] when the job is cancelled.
 pub(super) fn for_all<T: Send>(
     count: usize,
     job: &Job<'_>,

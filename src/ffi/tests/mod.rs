@@ -68,7 +68,6 @@ use super::status::{
 use super::*;
 use crate::fixtures::{self, Arrays};
 use std::ffi::{CStr, CString, c_char, c_void};
-use std::hash::{DefaultHasher, Hasher};
 use std::ptr;
 
 /// A handle that is freed at the end.
@@ -199,14 +198,13 @@ fn loop_vertices(mesh: HolefillMesh, id: u64) -> Vec<u64> {
     )
 }
 
-/// A number for everything that a mesh holds and that can be read.
+/// A number for everything that a mesh holds and that can be read (FNV-1a).
 fn digest(mesh: HolefillMesh) -> u64 {
-    let mut hash = DefaultHasher::new();
-    hash.write(bytemuck::cast_slice(&positions(mesh)));
-    hash.write(bytemuck::cast_slice(&triangles(mesh)));
-    hash.write_u64(info(mesh).undo_count);
+    let mut bytes: Vec<u8> = bytemuck::cast_slice(&positions(mesh)).to_vec();
+    bytes.extend_from_slice(bytemuck::cast_slice(&triangles(mesh)));
+    bytes.extend(info(mesh).undo_count.to_ne_bytes());
     for id in 0..loop_count(mesh) {
-        hash.write_u32(loop_info(mesh, id).is_open);
+        bytes.extend(loop_info(mesh, id).is_open.to_ne_bytes());
     }
     for element in [HOLEFILL_ELEMENT_VERTEX, HOLEFILL_ELEMENT_TRIANGLE] {
         let mut count = 0;
@@ -218,10 +216,12 @@ fn digest(mesh: HolefillMesh) -> u64 {
             let mut output = place(&mut values);
             output.count = info.count;
             ok!(holefill_mesh_read_attribute: mesh, element, index, 0, &output);
-            hash.write(bytemuck::cast_slice(&values));
+            bytes.extend_from_slice(bytemuck::cast_slice(&values));
         }
     }
-    hash.finish()
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
 }
 
 /// What a function writes that hands out a text.

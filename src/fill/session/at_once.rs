@@ -26,7 +26,7 @@ use std::time::Instant;
 /// before the fill.
 ///
 /// Not guaranteed: that a patch has no intersections at all. When every method's patch has some, the one with
-/// the fewest is used and [`HoleReport::self_intersections`] says how many remain.
+/// the fewest is used and [`self_intersections`](crate::HoleReport::self_intersections) says how many remain.
 ///
 /// # Errors
 /// [`crate::ErrorKind::InvalidInput`] when the selection names an edge that is on no loop, when `boundary` is not that

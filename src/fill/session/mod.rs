@@ -3,12 +3,12 @@
 //! [`plan`](FillSession::plan) makes patches on the unchanged mesh, [`apply`](FillSession::apply) appends them.
 //! Everything that fills holes goes this way.
 
-mod at_once;
+pub(crate) mod at_once;
+mod found;
 mod history;
 mod lookup;
 mod plan;
 
-pub use at_once::fill_holes;
 pub use plan::{FillPlan, PlannedPatch};
 
 use super::index::MeshIndex;
@@ -26,8 +26,8 @@ use crate::job::Job;
 use crate::mesh::attributes::AttributeValues;
 use crate::mesh::trimesh::TriMesh;
 use crate::options::{FillOptions, FilledAttributes};
+use found::FoundLoops;
 use history::History;
-use lookup::FoundLoops;
 use std::sync::{Mutex, OnceLock, TryLockError};
 use std::time::{Duration, Instant};
 

@@ -13,7 +13,7 @@ mod unfold;
 mod verify;
 
 use super::report::{FillReport, HoleStatus};
-use super::session::fill_holes;
+use super::session::at_once::fill_holes;
 use crate::boundary::loops::BoundaryLoops;
 use crate::boundary::select::Selection;
 use crate::fixtures::Arrays;

@@ -10,7 +10,7 @@ use crate::fill::index::MeshIndex;
 use crate::fill::plan::{Planner, chain};
 use crate::fill::progress::Progress;
 use crate::fill::report::HoleStatus;
-use crate::fill::session::fill_holes;
+use crate::fill::session::at_once::fill_holes;
 use crate::fixtures::{self, Arrays};
 use crate::job::Job;
 use crate::mesh::trimesh::TriMesh;

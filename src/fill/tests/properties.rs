@@ -5,7 +5,7 @@ use crate::boundary::boundary_loop::LoopClass;
 use crate::boundary::loops::BoundaryLoops;
 use crate::boundary::select::Selection;
 use crate::fill::report::HoleStatus;
-use crate::fill::session::fill_holes;
+use crate::fill::session::at_once::fill_holes;
 use crate::fixtures::{self, Arrays, Noise};
 use crate::methods::method::Method;
 use crate::options::FillOptions;

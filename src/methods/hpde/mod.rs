@@ -46,7 +46,7 @@ fn make(task: &Task<'_>) -> Result<PatchSurface> {
 /// The points of all sections, at heights from differential evolution or from its start value alone.
 ///
 /// # Errors
-/// [`ErrorKind::Cancelled`].
+/// [`crate::ErrorKind::Cancelled`].
 fn evolved(
     sections: &[Prepared],
     options: &HpdeOptions,

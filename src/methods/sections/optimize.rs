@@ -240,7 +240,7 @@ impl<'a> Editor<'a> {
     /// of swaps.
     ///
     /// # Errors
-    /// [`ErrorKind::Cancelled`].
+    /// [`crate::ErrorKind::Cancelled`].
     pub(super) fn swap_edges(&mut self, job: &Job<'_>) -> Result<usize> {
         let mut waiting = self.interior_edges();
         // `pop` takes from the end, so this gives the order of the sorted edges.

@@ -1,4 +1,4 @@
-//! How long does one small hole take by each method?
+//! How long does each method take for one small hole?
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! Does the cost of a fill follow the hole, and not the model?
+//! Does the cost of a fill depend on the hole only, and not on the size of the model?
 
 mod common;
 

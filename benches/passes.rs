@@ -1,4 +1,4 @@
-//! What do the passes over the whole mesh cost per triangle: connectivity, loops, index?
+//! What do the passes over the whole mesh (connectivity, loops, index) cost per triangle?
 
 mod common;
 
@@ -35,7 +35,7 @@ fn loops(bencher: Bencher, size: usize) {
     bencher.counter(count).bench(|| BoundaryLoops::find(&mesh));
 }
 
-/// The index for the intersection tests; finding the loops comes along, and costs next to nothing.
+/// The index for the intersection tests. The time includes finding the loops, which costs very little.
 #[divan::bench(args = SIZES, sample_count = 5, sample_size = 1)]
 fn index(bencher: Bencher, size: usize) {
     let mesh = sheet(size, 20..24);

@@ -10,7 +10,7 @@ fn main() {
     divan::main();
 }
 
-/// A hole of `rim` edges in a sheet that stays the same.
+/// A hole of `rim` edges in a sheet of constant size.
 fn fill(bencher: Bencher, rim: usize, method: Method) {
     let mut hole = Hole::shortest(sheet(80, 8..8 + rim / 4));
     bencher.bench_local(|| hole.fill_and_undo(method));

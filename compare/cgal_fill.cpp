@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Fills the holes of one PLY mesh with CGAL's Polygon_mesh_processing and reports what it cost.
+// Fills the holes of one PLY mesh with CGAL's Polygon_mesh_processing, and reports time and memory.
 //
 //   cgal_fill INPUT.ply OUTPUT.ply [--continuity 0|1|2] [--method fair|refine|triangulate|cubic]
 //             [--cdt2] [--keep V0,V1]... [--limit-seconds S] [--json FILE]
 //
-// The output holds the input's vertices and faces first, in the same order and bit for bit, then
-// the new ones. `-` as OUTPUT writes no mesh. `--keep V0,V1` names a loop by a directed boundary
-// edge as in its face. `--method cubic` is the exact O(m^3) search alone, on the loop's polyline.
-// `--cdt2` allows the planar search space, which CGAL 5.5 documents as the default but leaves off.
+// The output has the vertices and faces of the input first, in the same order and bit for bit, and
+// then the new ones. `-` as OUTPUT writes no mesh. `--keep V0,V1` names a loop by a directed boundary
+// edge as in its face. `--method cubic` is only the exact O(m^3) search, on the polyline of the loop.
+// `--cdt2` allows the planar search space. CGAL 5.5 documents it as the default, but leaves it off.
 // Every option of the CGAL calls is set explicitly.
 //
 // Times: "cpu" is the processor time of this process around the calls named, "wall" the clock.
 // Exit status: 0 all holes filled, 3 some failed (the output is still written), 2 bad usage,
 // 1 cannot read or write, 4 the limit of processor seconds was reached.
-// A build that CGAL refuses in part (non-manifold input) is reported as "build.ok": false; the
-// holes of the faces that it did take are still filled.
+// If CGAL rejects some faces (non-manifold input), the report has "build.ok": false. The holes of the
+// other faces are still filled.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/border.h>
@@ -162,8 +162,8 @@ Options parse(int argc, char** argv) {
 
 // ------------------------------------------------------------------------------------- mesh
 
-// Adds the faces in order; what CGAL refuses for the order alone is tried once more at the end.
-// Returns the indices of the triangles that it does not take.
+// Adds the faces in order. Faces that CGAL rejects are tried again at the end, because the reason may
+// be the order. Returns the indices of the triangles that CGAL does not accept.
 std::vector<std::size_t> build(const Arrays& arrays, Mesh& mesh) {
     mesh.reserve(static_cast<Mesh::size_type>(arrays.points.size()),
                  static_cast<Mesh::size_type>(arrays.triangles.size() * 3 / 2 + 1),
@@ -194,7 +194,7 @@ std::vector<Halfedge> cycle_of(const Mesh& mesh, Halfedge start) {
 
 std::uint32_t id(Vertex v) { return static_cast<std::uint32_t>(v); }
 
-// The loop's polyline with the apexes outside, by the exact search; the triangles become faces.
+// Triangulates the polyline of the loop, with the apexes outside, by the exact search. The triangles become faces.
 bool fill_cubic(Mesh& mesh, Halfedge border, std::vector<Face>& faces) {
     std::vector<Point> points, apexes;
     std::vector<Vertex> vertices;
@@ -260,7 +260,7 @@ std::string quoted(const std::string& text) {
     return out + "\"";
 }
 
-// From /proc, since ru_maxrss of a young process still holds the size of the one that forked it.
+// From /proc, because ru_maxrss of a new process still has the size of its parent.
 long peak_kilobytes() {
     std::ifstream file("/proc/self/status");
     for (std::string line; std::getline(file, line);)
@@ -320,10 +320,10 @@ void write_text(const std::string& path, const std::string& text) {
     if (!file) throw std::runtime_error("cannot write " + path);
 }
 
-// The limit stops the whole process, since CGAL's fairing offers no place to stop at. A timer of
-// the clock looks at the processor time now and then: while a timer of processor time itself runs,
-// Linux counts that time in whole ticks, too coarse for a small fill. What the handler writes is
-// prepared before the fill starts.
+// The limit stops the whole process, because CGAL's fairing cannot be canceled. A clock timer checks the
+// processor time at intervals. A timer of processor time would be wrong: while it runs, Linux counts that
+// time in whole ticks, which is too coarse for a small fill. The output of the handler is prepared
+// before the fill starts.
 constexpr suseconds_t LIMIT_CHECK_MICROSECONDS = 200'000;
 std::string limit_json, limit_path;
 double limit_seconds = 0.0, limit_start = 0.0;

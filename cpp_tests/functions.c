@@ -51,31 +51,32 @@ static void check_parameters(void) {
     CHECK_OK(holefill_parameters_free(parameters));
 }
 
+static void *allocate(uint64_t count, size_t size) {
+    void *memory = malloc((size_t)count * size);
+    CHECK(memory != NULL);
+    return memory;
+}
+
 static HolefillMesh make_mesh(const Sheet *sheet) {
-    const HolefillInput positions = {sheet->positions, sheet->vertex_count, 0, HOLEFILL_TYPE_F64, 0};
-    const HolefillInput triangles = {sheet->triangles, sheet->triangle_count, 0, HOLEFILL_TYPE_U32, 0};
+    const HolefillInput positions = rows(sheet->positions, sheet->vertex_count, HOLEFILL_TYPE_F64);
+    const HolefillInput triangles = rows(sheet->triangles, sheet->triangle_count, HOLEFILL_TYPE_U32);
     HolefillMesh mesh = {0};
     CHECK_OK(holefill_mesh_from_arrays(&positions, &triangles, &mesh, NULL));
     return mesh;
 }
 
 static void check_attributes(HolefillMesh mesh, const Sheet *sheet) {
-    uint8_t *colors = (uint8_t *)malloc((size_t)sheet->vertex_count * 3);
-    HolefillInput values = HOLEFILL_INPUT_INIT;
+    uint8_t *colors = (uint8_t *)allocate(3 * sheet->vertex_count, 1);
     HolefillAttributeInfo info = HOLEFILL_ATTRIBUTE_INFO_INIT;
-    HolefillOutput output = HOLEFILL_OUTPUT_INIT;
     uint64_t count = 0, length = 0, i;
     char name[16];
     double back[3] = {0, 0, 0};
-    CHECK(colors != NULL);
     for (i = 0; i < sheet->vertex_count; ++i) {
         colors[3 * i] = 200;
         colors[3 * i + 1] = (uint8_t)(i % 200);
         colors[3 * i + 2] = 7;
     }
-    values.data = colors;
-    values.count = sheet->vertex_count;
-    values.scalar_type = HOLEFILL_TYPE_U8;
+    const HolefillInput values = rows(colors, sheet->vertex_count, HOLEFILL_TYPE_U8);
     CHECK_OK(holefill_mesh_add_attribute(mesh, HOLEFILL_ELEMENT_VERTEX, "color", 3, &values, NULL));
     CHECK_OK(holefill_mesh_attribute_count(mesh, HOLEFILL_ELEMENT_VERTEX, &count, NULL));
     CHECK(count == 1);
@@ -83,41 +84,48 @@ static void check_attributes(HolefillMesh mesh, const Sheet *sheet) {
     CHECK(info.components == 3 && info.scalar_type == HOLEFILL_TYPE_U8 && info.count == sheet->vertex_count);
     CHECK_OK(holefill_mesh_attribute_name(mesh, HOLEFILL_ELEMENT_VERTEX, 0, name, sizeof name, &length, NULL));
     CHECK(strcmp(name, "color") == 0 && length == 5);
-    output.data = back;
-    output.count = 1;
-    output.scalar_type = HOLEFILL_TYPE_F64;
+    HolefillOutput output = room(back, 1, HOLEFILL_TYPE_F64);
     CHECK_OK(holefill_mesh_read_attribute(mesh, HOLEFILL_ELEMENT_VERTEX, 0, 5, &output, NULL));
     CHECK(back[0] == 200 && back[1] == 5 && back[2] == 7);
     free(colors);
 }
 
+/* A directed edge of the first hole. */
+static HolefillTarget at_edge(const Sheet *sheet) {
+    HolefillTarget made = target(HOLEFILL_TARGET_EDGE);
+    made.edge[0] = sheet->hole_edge[0];
+    made.edge[1] = sheet->hole_edge[1];
+    return made;
+}
+
+/* The id of the first hole. */
+static uint64_t first_hole(HolefillMesh mesh, const Sheet *sheet) {
+    const HolefillTarget edge = at_edge(sheet);
+    uint64_t id = 0, count = 0;
+    CHECK_OK(holefill_mesh_find_loops(mesh, &edge, &id, 1, &count, NULL));
+    CHECK(count == 1);
+    return id;
+}
+
 static void check_loops(HolefillMesh mesh, const Sheet *sheet) {
     HolefillLoopInfo info = HOLEFILL_LOOP_INFO_INIT;
-    HolefillSelection selection;
-    HolefillOutput output = HOLEFILL_OUTPUT_INIT;
-    HolefillInput chain = HOLEFILL_INPUT_INIT;
+    HolefillSelection selection = HOLEFILL_SELECTION_INIT;
+    HolefillTarget selected = target(HOLEFILL_TARGET_SELECTED);
     uint32_t vertices[4 * SHEET_HOLE];
-    uint64_t count = 0, id = 0, found = 0, ids[32];
-    CHECK_OK(holefill_selection_init(&selection, sizeof selection));
+    const HolefillOutput output = room(vertices, 4 * SHEET_HOLE, HOLEFILL_TYPE_U32);
+    uint64_t count = 0, id = 0, ids[32];
     CHECK_OK(holefill_mesh_prepare(mesh, NULL));
     CHECK_OK(holefill_mesh_loop_count(mesh, &count, NULL));
     CHECK(count == sheet->hole_count + 1);
-    CHECK_OK(holefill_mesh_find_edge(mesh, sheet->hole_edge[0], sheet->hole_edge[1], &id, NULL));
+    id = first_hole(mesh, sheet);
     CHECK_OK(holefill_mesh_loop_info(mesh, id, &info, NULL));
     CHECK(info.edge_count == 4 * SHEET_HOLE && info.vertex_count == info.edge_count && info.is_open == 1);
     CHECK(info.perimeter >= 4 * SHEET_HOLE && info.loop_class == HOLEFILL_CLASS_SIMPLE);
-    output.data = vertices;
-    output.count = info.vertex_count;
-    output.scalar_type = HOLEFILL_TYPE_U32;
     CHECK_OK(holefill_mesh_read_loop(mesh, id, 0, &output, NULL));
-    chain.data = vertices;
-    chain.count = info.vertex_count;
-    chain.scalar_type = HOLEFILL_TYPE_U32;
-    CHECK_OK(holefill_mesh_find_vertices(mesh, &chain, NULL, 0, &count, NULL));
-    CHECK_OK(holefill_mesh_find_vertices(mesh, &chain, &found, 1, &count, NULL));
-    CHECK(count == 1 && found == id);
     selection.keep_largest = 1;
-    CHECK_OK(holefill_mesh_select(mesh, &selection, ids, 32, &count, NULL));
+    selected.selection = &selection;
+    CHECK_OK(holefill_mesh_find_loops(mesh, &selected, NULL, 0, &count, NULL));
+    CHECK_OK(holefill_mesh_find_loops(mesh, &selected, ids, 32, &count, NULL));
     CHECK(count == sheet->hole_count);
 }
 
@@ -148,8 +156,7 @@ static void check_json(HolefillReport report) {
     uint64_t length = 0;
     char *text = NULL;
     CHECK_OK(holefill_report_json(report, NULL, 0, &length, NULL));
-    text = (char *)malloc((size_t)length + 1);
-    CHECK(text != NULL);
+    text = (char *)allocate(length + 1, 1);
     CHECK_OK(holefill_report_json(report, text, length + 1, &length, NULL));
     CHECK(strlen(text) == length && text[0] == '{' && strstr(text, "\"holes\"") != NULL);
     free(text);
@@ -183,51 +190,35 @@ static void check_report(HolefillReport report, uint64_t expected) {
     CHECK_OK(holefill_report_free(report));
 }
 
-/* A target of this kind. */
-static HolefillTarget target(HolefillTargetKind kind) {
-    HolefillTarget made = HOLEFILL_TARGET_INIT;
-    made.kind = kind;
-    return made;
-}
-
 static HolefillTarget at_loop(uint64_t id) {
     HolefillTarget made = target(HOLEFILL_TARGET_LOOP);
     made.loop_id = id;
     return made;
 }
 
-/* Fills the first hole, named in every way, and undoes it, or plans it. */
+/* Finds the first hole, named in every way, fills and undoes it, and plans it. */
 static void check_targets(HolefillMesh mesh, const Sheet *sheet) {
     HolefillTarget ways[4];
     HolefillReport report = {0};
     HolefillPlan plan = {0};
-    HolefillInput chain = HOLEFILL_INPUT_INIT, ids = HOLEFILL_INPUT_INIT;
-    HolefillOutput output = HOLEFILL_OUTPUT_INIT;
     int32_t vertices[4 * SHEET_HOLE];
-    uint64_t id = 0;
-    int64_t signed_id;
+    const uint64_t id = first_hole(mesh, sheet);
+    int64_t signed_id = (int64_t)id;
+    const HolefillOutput output = room(vertices, 4 * SHEET_HOLE, HOLEFILL_TYPE_I32);
+    HolefillInput chain = rows(vertices, 4 * SHEET_HOLE, HOLEFILL_TYPE_I32);
+    const HolefillInput ids = rows(&signed_id, 1, HOLEFILL_TYPE_I64);
     int i;
-    CHECK_OK(holefill_mesh_find_edge(mesh, sheet->hole_edge[0], sheet->hole_edge[1], &id, NULL));
-    output.data = vertices;
-    output.count = 4 * SHEET_HOLE;
-    output.scalar_type = HOLEFILL_TYPE_I32;
     CHECK_OK(holefill_mesh_read_loop(mesh, id, 0, &output, NULL));
-    chain.data = vertices;
-    chain.count = 4 * SHEET_HOLE;
-    chain.scalar_type = HOLEFILL_TYPE_I32;
-    signed_id = (int64_t)id;
-    ids.data = &signed_id;
-    ids.count = 1;
-    ids.scalar_type = HOLEFILL_TYPE_I64;
     ways[0] = at_loop(id);
-    ways[1] = target(HOLEFILL_TARGET_EDGE);
-    ways[1].edge[0] = sheet->hole_edge[0];
-    ways[1].edge[1] = sheet->hole_edge[1];
+    ways[1] = at_edge(sheet);
     ways[2] = target(HOLEFILL_TARGET_VERTICES);
     ways[2].ids = &chain;
     ways[3] = target(HOLEFILL_TARGET_LOOPS);
     ways[3].ids = &ids;
     for (i = 0; i < 4; ++i) {
+        uint64_t found = 0, count = 0;
+        CHECK_OK(holefill_mesh_find_loops(mesh, &ways[i], &found, 1, &count, NULL));
+        CHECK(count == 1 && found == id);
         CHECK_OK(holefill_mesh_fill(mesh, &ways[i], NULL, &report, NULL));
         check_report(report, 1);
         CHECK_STATUS(holefill_mesh_fill(mesh, &ways[i], NULL, NULL, NULL), HOLEFILL_STATUS_INVALID_ARGUMENT);
@@ -247,16 +238,13 @@ static void check_targets(HolefillMesh mesh, const Sheet *sheet) {
 }
 
 static void check_fills(HolefillMesh mesh, const Sheet *sheet) {
-    HolefillFillOptions options = HOLEFILL_FILL_OPTIONS_INIT, same;
+    HolefillFillOptions options = HOLEFILL_FILL_OPTIONS_INIT;
     HolefillSelection selection = HOLEFILL_SELECTION_INIT;
     HolefillTarget selected = target(HOLEFILL_TARGET_SELECTED);
     HolefillReport report = {0};
     HolefillMeshInfo size = HOLEFILL_MESH_INFO_INIT;
-    HolefillOutput output = HOLEFILL_OUTPUT_INIT;
     uint64_t calls = 0, lines = 0, i;
     double *positions;
-    CHECK_OK(holefill_fill_options_init(&same, sizeof same));
-    CHECK(same.struct_size == options.struct_size && same.version == options.version && same.threads == 0);
     selected.selection = &selection;
     selection.keep_largest = 1;
     options.method = "fair-c1";
@@ -273,11 +261,8 @@ static void check_fills(HolefillMesh mesh, const Sheet *sheet) {
     CHECK_OK(holefill_mesh_info(mesh, &size, NULL));
     CHECK(size.input_vertex_count == sheet->vertex_count && size.vertex_count > size.input_vertex_count);
     CHECK(size.undo_count == 1 && size.is_polyline == 0);
-    positions = (double *)malloc((size_t)size.vertex_count * 3 * sizeof(double));
-    CHECK(positions != NULL);
-    output.data = positions;
-    output.count = size.vertex_count;
-    output.scalar_type = HOLEFILL_TYPE_F64;
+    positions = (double *)allocate(3 * size.vertex_count, sizeof(double));
+    HolefillOutput output = room(positions, size.vertex_count, HOLEFILL_TYPE_F64);
     CHECK_OK(holefill_mesh_read_positions(mesh, 0, &output, NULL));
     CHECK(memcmp(positions, sheet->positions, (size_t)sheet->vertex_count * 3 * sizeof(double)) == 0);
     for (i = 0; i < 3 * size.vertex_count; ++i) {
@@ -290,26 +275,20 @@ static void check_plans(HolefillMesh mesh, const Sheet *sheet) {
     HolefillPlan plan = {0};
     HolefillReport report = {0};
     HolefillPatchInfo patch = HOLEFILL_PATCH_INFO_INIT;
-    HolefillOutput output = HOLEFILL_OUTPUT_INIT;
     HolefillTarget one;
     uint32_t *triangles;
     double *positions;
     uint64_t id = 0, i;
-    CHECK_OK(holefill_mesh_find_edge(mesh, sheet->hole_edge[0], sheet->hole_edge[1], &id, NULL));
+    id = first_hole(mesh, sheet);
     one = at_loop(id);
     CHECK_OK(holefill_mesh_plan(mesh, &one, NULL, &plan, NULL));
     CHECK_OK(holefill_plan_patch(plan, id, &patch, NULL));
     CHECK(patch.first_vertex == sheet->vertex_count && patch.vertex_count > 0);
-    positions = (double *)malloc((size_t)patch.vertex_count * 3 * sizeof(double));
-    triangles = (uint32_t *)malloc((size_t)patch.triangle_count * 3 * sizeof(uint32_t));
-    CHECK(positions != NULL && triangles != NULL);
-    output.data = positions;
-    output.count = patch.vertex_count;
-    output.scalar_type = HOLEFILL_TYPE_F64;
+    positions = (double *)allocate(3 * patch.vertex_count, sizeof(double));
+    triangles = (uint32_t *)allocate(3 * patch.triangle_count, sizeof(uint32_t));
+    HolefillOutput output = room(positions, patch.vertex_count, HOLEFILL_TYPE_F64);
     CHECK_OK(holefill_plan_read_positions(plan, id, 0, &output, NULL));
-    output.data = triangles;
-    output.count = patch.triangle_count;
-    output.scalar_type = HOLEFILL_TYPE_U32;
+    output = room(triangles, patch.triangle_count, HOLEFILL_TYPE_U32);
     CHECK_OK(holefill_plan_read_triangles(plan, id, 0, &output, NULL));
     for (i = 0; i < 3 * patch.triangle_count; ++i) {
         CHECK(triangles[i] < patch.first_vertex + patch.vertex_count);
@@ -327,13 +306,12 @@ static void check_plans(HolefillMesh mesh, const Sheet *sheet) {
 static void check_polyline(void) {
     enum { COUNT = 24 };
     float points[COUNT][3], normals[COUNT][3];
-    HolefillInput input = {points, COUNT, 0, HOLEFILL_TYPE_F32, 0};
-    HolefillInput normal_input = {normals, COUNT, 0, HOLEFILL_TYPE_F32, 0};
+    const HolefillInput input = rows(points, COUNT, HOLEFILL_TYPE_F32);
+    const HolefillInput normal_input = rows(normals, COUNT, HOLEFILL_TYPE_F32);
     HolefillMesh mesh = {0};
     HolefillReport report = {0};
     HolefillDefects defects = HOLEFILL_DEFECTS_INIT;
     HolefillMeshInfo info = HOLEFILL_MESH_INFO_INIT;
-    HolefillOutput output = HOLEFILL_OUTPUT_INIT;
     uint64_t triangle[3] = {9, 9, 9};
     int i;
     for (i = 0; i < COUNT; ++i) {
@@ -351,9 +329,7 @@ static void check_polyline(void) {
     check_report(report, 1);
     CHECK_OK(holefill_mesh_info(mesh, &info, NULL));
     CHECK(info.is_polyline == 1 && info.input_vertex_count == COUNT && info.vertex_count > COUNT);
-    output.data = triangle;
-    output.count = 1;
-    output.scalar_type = HOLEFILL_TYPE_U64;
+    HolefillOutput output = room(triangle, 1, HOLEFILL_TYPE_U64);
     CHECK_OK(holefill_mesh_read_triangles(mesh, 0, &output, NULL));
     CHECK(triangle[0] < info.vertex_count && triangle[1] < info.vertex_count && triangle[2] < info.vertex_count);
     CHECK_OK(holefill_mesh_free(mesh));
@@ -364,15 +340,12 @@ static void check_polyline(void) {
 }
 
 static void check_points(const Sheet *sheet) {
-    HolefillInput points = HOLEFILL_INPUT_INIT;
     HolefillPointOptions options = HOLEFILL_POINT_OPTIONS_INIT;
     HolefillPointSummary summary = HOLEFILL_POINT_SUMMARY_INIT;
     HolefillMeshInfo info = HOLEFILL_MESH_INFO_INIT;
     HolefillMesh mesh = {0};
     const uint64_t n = sheet->vertex_count;
-    points.data = sheet->positions;
-    points.count = n;
-    points.scalar_type = HOLEFILL_TYPE_F64;
+    const HolefillInput points = rows(sheet->positions, n, HOLEFILL_TYPE_F64);
     options.threads = 1;
     CHECK_OK(holefill_mesh_from_points(&points, NULL, &points, &options, &mesh, &summary, NULL));
     CHECK_OK(holefill_mesh_info(mesh, &info, NULL));

@@ -1,6 +1,8 @@
-/* A curved square sheet with holes, made in code: the mesh of the tests in C and C++. */
+/* A curved square sheet with holes, made in code: the mesh of the tests in C and C++; and what describes arrays. */
 #ifndef HOLEFILL_TESTS_SHEET_H
 #define HOLEFILL_TESTS_SHEET_H
+
+#include <holefill.h>
 
 #include <math.h>
 #include <stdint.h>
@@ -76,6 +78,30 @@ static Sheet sheet_new(void) {
 static void sheet_free(Sheet *s) {
     free(s->positions);
     free(s->triangles);
+}
+
+/* Rows without gaps, to read and to write. */
+static inline HolefillInput rows(const void *data, uint64_t count, HolefillType type) {
+    HolefillInput made = HOLEFILL_INPUT_INIT;
+    made.data = data;
+    made.count = count;
+    made.scalar_type = type;
+    return made;
+}
+
+static inline HolefillOutput room(void *data, uint64_t count, HolefillType type) {
+    HolefillOutput made = HOLEFILL_OUTPUT_INIT;
+    made.data = data;
+    made.count = count;
+    made.scalar_type = type;
+    return made;
+}
+
+/* A target of this kind. */
+static inline HolefillTarget target(HolefillTargetKind kind) {
+    HolefillTarget made = HOLEFILL_TARGET_INIT;
+    made.kind = kind;
+    return made;
 }
 
 #endif

@@ -32,16 +32,10 @@ struct Arrays {
 
 Arrays arrays() {
     Sheet sheet = sheet_new();
-    Arrays a;
-    for (uint64_t i = 0; i < sheet.vertex_count; ++i) {
-        a.positions.push_back({sheet.positions[3 * i], sheet.positions[3 * i + 1], sheet.positions[3 * i + 2]});
-    }
-    for (uint64_t i = 0; i < sheet.triangle_count; ++i) {
-        a.triangles.push_back({sheet.triangles[3 * i], sheet.triangles[3 * i + 1], sheet.triangles[3 * i + 2]});
-    }
-    a.hole_edge = {sheet.hole_edge[0], sheet.hole_edge[1]};
-    a.rim_edge = {sheet.rim_edge[0], sheet.rim_edge[1]};
-    a.hole_count = sheet.hole_count;
+    Arrays a{Points(sheet.vertex_count), Triangles(sheet.triangle_count), {sheet.hole_edge[0], sheet.hole_edge[1]},
+             {sheet.rim_edge[0], sheet.rim_edge[1]}, sheet.hole_count};
+    std::copy_n(sheet.positions, 3 * sheet.vertex_count, a.positions[0].data());
+    std::copy_n(sheet.triangles, 3 * sheet.triangle_count, a.triangles[0].data());
     sheet_free(&sheet);
     return a;
 }
@@ -58,6 +52,7 @@ HolefillStatus status_of(Function function) {
 }
 
 void everything_once() {
+    using holefill::Target;
     const Arrays a = arrays();
     holefill::Mesh mesh = holefill::Mesh::from_arrays(a.positions, a.triangles);
     mesh.prepare();
@@ -72,16 +67,15 @@ void everything_once() {
     CHECK(attributes.size() == 1 && attributes[0].name == "heat" && attributes[0].components == 1);
 
     CHECK(mesh.loop_count() == a.hole_count + 1 && mesh.loops().size() == a.hole_count + 1);
-    const uint64_t id = mesh.find_edge(a.hole_edge[0], a.hole_edge[1]);
+    const uint64_t id = mesh.find_loops(Target::edge(a.hole_edge[0], a.hole_edge[1])).at(0);
     const std::vector<uint64_t> loop = mesh.loop_vertices(id);
     CHECK(loop.size() == mesh.loop(id).edge_count);
-    CHECK(mesh.find_vertices(loop) == std::vector<uint64_t>{id});
+    CHECK(mesh.find_loops(Target::vertices(loop)) == std::vector<uint64_t>{id});
     holefill::Selection holes;
     holes.keep = {a.rim_edge};
-    CHECK(mesh.select(holes).size() == a.hole_count);
+    CHECK(mesh.find_loops(holes).size() == a.hole_count);
 
     // Plans leave the mesh as it is and can be applied.
-    using holefill::Target;
     const holefill::Plan plan = mesh.plan(Target::loop(id));
     const holefill::Patch patch = plan.patch(id);
     CHECK(patch.first_vertex == a.positions.size() && !patch.positions.empty() && !patch.triangles.empty());
@@ -160,6 +154,17 @@ struct Broken : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+template <class Function>
+void check_throws_broken(Function function) {
+    bool is_caught = false;
+    try {
+        function();
+    } catch (const Broken& e) {
+        is_caught = std::string(e.what()) == "from the callback";
+    }
+    CHECK(is_caught);
+}
+
 void callbacks_may_throw() {
     const Arrays a = arrays();
     holefill::Mesh mesh = holefill::Mesh::from_arrays(a.positions, a.triangles);
@@ -174,25 +179,13 @@ void callbacks_may_throw() {
                 }
                 return true;
             });
-            bool is_caught = false;
-            try {
-                (void)mesh.fill(options);
-            } catch (const Broken& e) {
-                is_caught = std::string(e.what()) == "from the callback";
-            }
-            CHECK(is_caught);
+            check_throws_broken([&] { (void)mesh.fill(options); });
             CHECK(mesh.positions() == a.positions && mesh.triangles() == a.triangles);
         }
     }
     holefill::Options options;
-    options.method("fair-c1").on_log([](HolefillLogLevel, const char*) { throw Broken("from the log"); });
-    bool is_caught = false;
-    try {
-        (void)mesh.fill(options);
-    } catch (const Broken&) {
-        is_caught = true;
-    }
-    CHECK(is_caught);
+    options.method("fair-c1").on_log([](HolefillLogLevel, const char*) { throw Broken("from the callback"); });
+    check_throws_broken([&] { (void)mesh.fill(options); });
 }
 
 void polylines() {
@@ -227,10 +220,7 @@ void points() {
     holefill::PointOptions options;
     options.threads = 1;
     uint64_t questions = 0;
-    options.on_progress = [&](const HolefillProgress&) {
-        ++questions;
-        return true;
-    };
+    options.on_progress = [&](const HolefillProgress&) { return ++questions > 0; };
     holefill::Mesh mesh = holefill::Mesh::from_points(samples, down, red, options, &summary);
     CHECK(summary.used == sheet.vertex_count && summary.triangle_count == mesh.info().triangle_count);
     CHECK(mesh.attributes(HOLEFILL_ELEMENT_VERTEX).at(0).name == "color");
@@ -239,12 +229,8 @@ void points() {
     const auto t = mesh.triangles().at(0);
     const auto &a = positions[t[0]], &b = positions[t[1]], &c = positions[t[2]];
     CHECK((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) < 0.0);
-    try {
-        holefill::Mesh::from_points(holefill::Rows<3>(sheet.positions, 3));
-        CHECK(false);
-    } catch (const holefill::Exception& e) {
-        CHECK(e.status() == HOLEFILL_STATUS_INVALID_ARGUMENT);
-    }
+    CHECK(status_of([&] { holefill::Mesh::from_points(holefill::Rows<3>(sheet.positions, 3)); }) ==
+          HOLEFILL_STATUS_INVALID_ARGUMENT);
     sheet_free(&sheet);
 
     // Enough points that there is time for a question.
@@ -254,20 +240,11 @@ void points() {
             many.push_back({double(i), double(j), std::sin(0.1 * i)});
         }
     }
-    options.on_progress = [](const HolefillProgress&) -> bool { throw std::runtime_error("enough"); };
-    try {
-        holefill::Mesh::from_points(many, std::nullopt, std::nullopt, options);
-        CHECK(false);
-    } catch (const std::runtime_error& e) {
-        CHECK(std::string(e.what()) == "enough");
-    }
+    const auto make = [&] { holefill::Mesh::from_points(many, std::nullopt, std::nullopt, options); };
+    options.on_progress = [](const HolefillProgress&) -> bool { throw Broken("from the callback"); };
+    check_throws_broken(make);
     options.on_progress = [](const HolefillProgress&) { return false; };
-    try {
-        holefill::Mesh::from_points(many, std::nullopt, std::nullopt, options);
-        CHECK(false);
-    } catch (const holefill::Exception& e) {
-        CHECK(e.status() == HOLEFILL_STATUS_CANCELLED);
-    }
+    CHECK(status_of(make) == HOLEFILL_STATUS_CANCELLED);
 }
 
 } // namespace

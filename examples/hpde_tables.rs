@@ -1,13 +1,13 @@
-//! Runs the experiments of W.-C. Xie, X.-F. Zou, "A triangulation-based hole patching method using differential
-//! evolution", 2013: Tables 1 and 2, the noise of Figure 18 and the sensitivity of Figure 19, and those that show
-//! what differential evolution does and costs. Writes Markdown and plots beside the paper's figures:
+//! Repeats the experiments of W.-C. Xie, X.-F. Zou, "A triangulation-based hole patching method using differential
+//! evolution", 2013: Tables 1 and 2, the noise of Figure 18 and the sensitivity of Figure 19. Also measures the effect
+//! and the cost of differential evolution. Writes Markdown, with the figures of the paper, and plots:
 //!
 //! ```sh
 //! cargo run --release --example hpde_tables -- ../shared/data/cases docs/results
 //! ```
 //!
-//! The first argument is the folder of the models; each has `input.ply`, `meta.json` and, where the removed
-//! triangles are known, `truth.ply`. The second one is where `hpde.md` and `hpde-*.svg` go.
+//! The first argument is the folder of the models. Each has `input.ply`, `meta.json` and, if the removed triangles are
+//! known, `truth.ply`. The second argument is the folder for `hpde.md` and `hpde-*.svg`.
 
 mod shared;
 
@@ -40,7 +40,7 @@ struct Row {
 
 const NO_SMOOTHING: Parameters = &[("hpde.smoothing", "off")];
 
-/// A row of the paper, with each of the models that stand for it.
+/// A row of the paper, with our models for it.
 const fn row(paper: &'static str, model: &'static str) -> Row {
     Row {
         paper,
@@ -150,10 +150,10 @@ const TABLE_1: [Row; 12] = [
 
 fn main() -> Result<()> {
     let (models, results) = folders()?;
-    let mut page = String::from("# HPDE beside the paper\n\n");
+    let mut page = String::from("# HPDE compared with the paper\n\n");
     writeln!(
         page,
-        "W.-C. Xie, X.-F. Zou, \"A triangulation-based hole patching method using differential evolution\", 2013. Made by {}. APE and MPE are those of eq. 17: mean and largest distance of the new vertices to the removed triangles, over the largest coordinate of the new vertices. Seconds are processor time of the whole fill with its checks, on one thread, the least of five runs; the paper's are MATLAB's on 2.8 GHz. \"–\" is not known or not given.\n",
+        "W.-C. Xie, X.-F. Zou, \"A triangulation-based hole patching method using differential evolution\", 2013. Made by {}. APE and MPE are the mean and largest distance of the new vertices from the removed triangles, over the largest coordinate of the new vertices (eq. 17). Seconds are processor time of the whole fill with its checks, on one thread, the least of five runs. The paper used MATLAB on 2.8 GHz. \"–\" means unknown.\n",
         command("hpde_tables")
     )?;
     let cases = Cases::read(&models)?;
@@ -187,14 +187,14 @@ impl Cases {
         found.ok_or_else(|| format!("{name} was not read").into())
     }
 
-    /// Those whose removed triangles are known.
+    /// The models whose removed triangles are known.
     fn with_truth(&self) -> impl Iterator<Item = &Case> {
         self.0.iter().filter(|c| c.removed() != "–")
     }
 }
 
 fn models_used(page: &mut String, cases: &Cases) -> Result<()> {
-    page.push_str("## Models\n\nThe paper's own models are not at hand, nor is it known where its holes were cut; the sphere and the cube follow its description, the others stand in for its models.\n\n");
+    page.push_str("## Models\n\nWe do not have the paper's models or the places of its holes. The sphere and the cube follow its description. The others replace its models.\n\n");
     for case in &cases.0 {
         writeln!(page, "- `{}`: {}", case.name, case.description())?;
     }
@@ -211,7 +211,7 @@ fn ape_of(case: &Case, filled: &Filled) -> Result<f64> {
 }
 
 fn table_1(page: &mut String, cases: &Cases) -> Result<()> {
-    page.push_str("## Table 1\n\n`hpde` holes are those that the method filled itself, of all. The last column is the paper's time per hole over ours.\n\n");
+    page.push_str("## Table 1\n\n`hpde` holes: the holes that the method itself filled, of all. The last column is the paper's time per hole over ours.\n\n");
     page.push_str("| paper | holes | triangles removed | MPE | APE | seconds | ours | `hpde` holes | triangles removed | intersections | MPE | APE | ours over paper's | seconds | faster |\n");
     page.push_str("| --- | ---: | ---: | ---: | ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
     let mut total = 0.0;
@@ -251,14 +251,14 @@ fn table_1(page: &mut String, cases: &Cases) -> Result<()> {
     total += filled.seconds;
     writeln!(
         page,
-        "\nAll rows together take {total:.2} seconds. `cube_corner`, where three creases meet in the hole, is in no row: APE {}, {:.4} seconds. The elephants and the armadillo are other models than the paper's, with other holes: their errors can only be set beside each other.\n",
+        "\nAll rows together take {total:.2} seconds. `cube_corner`, where three creases meet in the hole, has no row: APE {}, {:.4} seconds. The elephants and the armadillo are other models than the paper's, with other holes. So their errors are not directly comparable.\n",
         scientific(ape_of(corner, &filled)?),
         filled.seconds,
     )?;
     Ok(())
 }
 
-/// Table 2: APE and seconds of each method on a model. In the paper's order GREY, NURBS, HPDE.
+/// Table 2: APE and seconds of each method on a model, in the order of the paper: GREY, NURBS, HPDE.
 struct Comparison {
     paper: &'static str,
     holes: &'static str,
@@ -319,14 +319,14 @@ const METHODS: [(Method, &str); 3] = [
     (Method::Hpde, "HPDE"),
 ];
 
-/// The name of the method with the smallest figure.
+/// The method with the smallest figure.
 fn best(figures: [f64; 3]) -> &'static str {
     let least = (0..3).fold(0, |b, i| if figures[i] < figures[b] { i } else { b });
     METHODS[least].1
 }
 
 fn table_2(page: &mut String, cases: &Cases) -> Result<()> {
-    page.push_str("## Table 2\n\nAPE and seconds of GREY, NURBS and HPDE. The first two follow descriptions, not their own papers, see [grey](../methods/grey.md) and [nurbs](../methods/nurbs.md).\n\n");
+    page.push_str("## Table 2\n\nAPE and seconds of GREY, NURBS and HPDE. GREY and NURBS follow the descriptions of Xie and Zou, see [grey](../methods/grey.md) and [nurbs](../methods/nurbs.md).\n\n");
     page.push_str("| holes | | model | GREY | NURBS | HPDE | best | new vertices | seconds |\n| --- | --- | --- | ---: | ---: | ---: | --- | --- | --- |\n");
     let mut verdicts = String::new();
     for c in &TABLE_2 {
@@ -379,7 +379,7 @@ fn table_2(page: &mut String, cases: &Cases) -> Result<()> {
 }
 
 fn noise(page: &mut String, models: &Path) -> Result<()> {
-    page.push_str("## Noise, Figure 18\n\nA hole in the unit sphere whose vertices were moved by up to 0.01, 0.03 and 0.05 along each axis; APE against the sphere without noise. The paper's preprocessing smooths; how much it does not say. `hpde.denoise` is off by default.\n\n");
+    page.push_str("## Noise, Figure 18\n\nA hole in the unit sphere, whose vertices were moved by up to 0.01, 0.03 and 0.05 along each axis. APE is against the sphere without noise. The paper smooths first, but does not say how much. `hpde.denoise` is off by default.\n\n");
     page.push_str("| model | APE, paper | default | 5 steps | 10 steps | 20 steps |\n| --- | ---: | ---: | ---: | ---: | ---: |\n");
     for (model, paper) in [
         ("hpde_noise_1", 0.016),
@@ -409,7 +409,7 @@ struct OverSeeds {
     mean: f64,
     least: f64,
     most: f64,
-    /// How far the others are from that of seed 0, as a share of it.
+    /// Largest difference from seed 0, as a share of its APE.
     from_first: f64,
 }
 
@@ -494,7 +494,7 @@ fn convergence(page: &mut String, cases: &Cases, results: &Path) -> Result<()> {
     page.push_str("## Convergence\n\n");
     let mut lines = Vec::new();
     for variant in VARIANTS {
-        // Its population converges only to what the last generation leaves.
+        // Enough generations for every variant: the search ends when its population agrees.
         let parameters = [("hpde.variant", variant), ("hpde.generations", "200")];
         let hpde = options(Method::Hpde, &parameters)?.methods.hpde;
         let curve = evolve_section(8.0, [1.1, 0.3], 9, &hpde, 0)?;
@@ -511,7 +511,7 @@ fn convergence(page: &mut String, cases: &Cases, results: &Path) -> Result<()> {
         Scale::Linear,
         &lines,
     )?;
-    page.push_str("![The objective over the generations](hpde-convergence.svg)\n\nThe largest turn of eq. 14 for a section between ends 8 edges apart at which the surface rises by 63° and 17°, seed 0; a line ends where the population agrees to 0.1 %. ");
+    page.push_str("![The objective over the generations](hpde-convergence.svg)\n\nThe largest angle of eq. 14 for a section between ends 8 edges apart, where the surface rises by 63° and 17°, with seed 0. A line ends where the population agrees to 0.1 %. ");
     let (first, mut at_30) = (lines[0].points[0].1, Vec::new());
     for line in &lines {
         let last = line.points[30.min(line.points.len() - 1)].1;
@@ -522,7 +522,7 @@ fn convergence(page: &mut String, cases: &Cases, results: &Path) -> Result<()> {
         "The start of eq. 16 has {first:.1}°; after 30 generations, the default, there are {}.\n",
         at_30.join(", ")
     )?;
-    page.push_str("What that does to the patches, APE with at most so many generations:\n\n| model | 0 | 3 | 10 | 30 | 100 | 300 |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+    page.push_str("APE of the patches, by the largest number of generations:\n\n| model | 0 | 3 | 10 | 30 | 100 | 300 |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: |\n");
     for case in cases.with_truth() {
         write!(page, "| `{}` ", case.name)?;
         for generations in ["0", "3", "10", "30", "100", "300"] {
@@ -539,7 +539,7 @@ fn convergence(page: &mut String, cases: &Cases, results: &Path) -> Result<()> {
 fn seeds(page: &mut String, cases: &Cases) -> Result<()> {
     writeln!(
         page,
-        "## Seeds\n\nAPE over the seeds 0 to {}; how far the others are from that of seed 0, the default; and how much the largest is above the smallest. The search of the published parameters stalls before its optimum, and where it does depends on the seed; a small difference may then decide whether a point is left out or two are joined.\n",
+        "## Seeds\n\nAPE over the seeds 0 to {}. \"From seed 0\" is the largest difference from seed 0, the default. \"Spread\" is how much the largest exceeds the smallest. With the published parameters, the search stalls before its optimum, at a point that depends on the seed. A small difference may then decide whether a point is left out or two are joined.\n",
         SEEDS - 1
     )?;
     page.push_str("| model | mean | least | most | from seed 0 | spread |\n| --- | ---: | ---: | ---: | ---: | ---: |\n");
@@ -560,12 +560,12 @@ fn seeds(page: &mut String, cases: &Cases) -> Result<()> {
     Ok(())
 }
 
-/// Parameters with which the search reaches the optimum of eq. 14: `CR` near 1, as that does not improve height by
-/// height, and generations until the population agrees.
+/// Parameters with which the search reaches the optimum of eq. 14: `CR` near 1, so that trials change many heights, and
+/// enough generations for the population to agree.
 const CONVERGED: Parameters = &[("hpde.cr", "0.9"), ("hpde.generations", "5000")];
 
 fn solvers(page: &mut String, cases: &Cases) -> Result<()> {
-    page.push_str("## What differential evolution buys\n\n`direct` leaves the heights at their start, eq. 16; `de` is the paper's search from there, with the paper's `CR` of 0.05 and 30 generations; the optimum of eq. 14 is what `de` finds with `hpde.cr=0.9` and 5000 generations.\n\n");
+    page.push_str("## What differential evolution buys\n\n`direct` uses only the start, eq. 16. `de` is the paper's search from there, with the paper's `CR` of 0.05 and 30 generations. The optimum of eq. 14 is the result of `de` with `hpde.cr=0.9` and 5000 generations.\n\n");
     page.push_str("| model | APE, `direct` | `de` | optimum | `de` over `direct` | optimum over `direct` | seconds, `direct` | `de` | optimum |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
     let mut logarithms = [0.0; 2];
     let mut count = 0.0;
@@ -592,13 +592,13 @@ fn solvers(page: &mut String, cases: &Cases) -> Result<()> {
     let [de, optimum] = logarithms.map(|sum: f64| (sum / count).exp());
     writeln!(
         page,
-        "\nGeometric means of the ratios: {de:.3} and {optimum:.3}. The start is tangent to the surface at both ends. The objective does not know the angles there, so its optimum may give them up.\n"
+        "\nGeometric means of the ratios: {de:.3} and {optimum:.3}. The start is tangent to the surface at both ends. The objective ignores the angles there, so its optimum may sacrifice them.\n"
     )?;
     Ok(())
 }
 
 fn scaling(page: &mut String, results: &Path) -> Result<()> {
-    page.push_str("## Cost per point\n\n![Time over the number of points](hpde-cost.svg)\n\nOne section of m points between ends 8 edges apart at 63° and 17°, and caps of 30° of finer and finer spheres, with k new vertices:\n\n| m | microseconds per point | | k | microseconds per point | of them in `de` |\n| ---: | ---: | --- | ---: | ---: | ---: |\n");
+    page.push_str("## Cost per point\n\n![Time over the number of points](hpde-cost.svg)\n\nOne section of m points between ends 8 edges apart at 63° and 17°. Caps of 30° of finer and finer spheres, with k new vertices:\n\n| m | microseconds per point | | k | microseconds per point | of them in `de` |\n| ---: | ---: | --- | ---: | ---: | ---: |\n");
     let counts = [50, 100, 200, 500, 1000, 2000];
     let meridians = [36, 48, 72, 108, 156, 216];
     let mut lines = ["a section", "a fill", "a fill, direct"].map(|name| Line {

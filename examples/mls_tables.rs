@@ -1,13 +1,13 @@
-//! Runs the experiments of J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed
-//! from point clouds", 2006, Tables 1, 3 and 4, on models that are at hand, and those that show what the method costs.
-//! Writes Markdown and a plot beside the paper's figures:
+//! Repeats the experiments of J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed from
+//! point clouds", 2006, Tables 1, 3 and 4, on our models. Also measures the cost of the method. Writes Markdown, with
+//! the figures of the paper, and a plot:
 //!
 //! ```sh
 //! cargo run --release --example mls_tables -- ../shared/data/cases docs/results
 //! ```
 //!
-//! The first argument is the folder of the models; each has `input.ply` and `meta.json` with the loops that stay open.
-//! The second one is where `mls.md` and `mls-cost.svg` go.
+//! The first argument is the folder of the models. Each has `input.ply` and `meta.json` with the loops that stay open.
+//! The second argument is the folder for `mls.md` and `mls-cost.svg`.
 
 mod shared;
 
@@ -23,7 +23,7 @@ use shared::{Case, Filled, RUNS, Result, command, fill, folders, processor_time}
 use std::fmt::Write;
 use std::path::Path;
 
-/// A row of the paper's Table 1 and the model that comes nearest to it.
+/// A row of the paper's Table 1, and our most similar model.
 struct Row {
     paper: &'static str,
     vertices_before: usize,
@@ -78,10 +78,10 @@ const TABLE_1: [Row; 5] = [
 
 fn main() -> Result<()> {
     let (models, results) = folders()?;
-    let mut page = String::from("# Moving least squares beside the paper\n\n");
+    let mut page = String::from("# Moving least squares compared with the paper\n\n");
     writeln!(
         page,
-        "J. Wang, M. M. Oliveira, \"Filling holes on locally smooth surfaces reconstructed from point clouds\", 2006. Made by {}. Seconds are processor time of the whole fill with its checks, on one thread, the least of {RUNS} runs. The paper's are from a Pentium 4 with 2.0 GHz.\n",
+        "J. Wang, M. M. Oliveira, \"Filling holes on locally smooth surfaces reconstructed from point clouds\", 2006. Made by {}. Seconds are processor time of the whole fill with its checks, on one thread, the least of {RUNS} runs. The paper used a Pentium 4 with 2.0 GHz.\n",
         command("mls_tables")
     )?;
     table_1(&mut page, &models)?;
@@ -98,7 +98,7 @@ fn options(parameters: &[(&str, &str)]) -> Result<FillOptions> {
 }
 
 fn table_1(page: &mut String, models: &Path) -> Result<()> {
-    page.push_str("## Table 1: statistics and running times\n\nThe paper's models are not at hand, but for the bunny; each row has one of ours beside it that is as near as we have. `mls` holes are those that the method filled, of all.\n\n");
+    page.push_str("## Table 1: statistics and running times\n\nOf the paper's models we only have the bunny. Each row compares a model of the paper with our most similar one. `mls` holes: the holes that the method itself filled, of all.\n\n");
     page.push_str("| paper | vertices | after | new | seconds | ours | vertices | after | new | `mls` holes | seconds | paper's over ours |\n");
     page.push_str(
         "| --- | ---: | ---: | ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
@@ -129,7 +129,7 @@ fn table_1(page: &mut String, models: &Path) -> Result<()> {
 
 /// Tables 3 and 4: two caps of a sphere.
 fn caps(page: &mut String, models: &Path) -> Result<()> {
-    page.push_str("\n## Tables 3 and 4: caps of a sphere\n\nA sphere of radius 5 without a cap of half-angle 30 and 60 degrees; 180 points of the vicinity each (Table 3). The error is the mean distance of the new vertices from the sphere, over its radius. The plane makes the paper's \"egg\" of the larger cap; the curved domain does not. `auto` is the default.\n\n");
+    page.push_str("\n## Tables 3 and 4: caps of a sphere\n\nA sphere of radius 5 without a cap of half-angle 30 and 60 degrees; 180 points of the vicinity each (Table 3). The error is the mean distance of the new vertices from the sphere, over its radius. On the larger cap, the plane gives the \"egg\" of the paper; the curved domain does not. `auto` is the default.\n\n");
     page.push_str(
         "| model | vertices | triangles | after, paper | after, ours | domain | mean error | seconds |\n",
     );
@@ -158,10 +158,10 @@ fn caps(page: &mut String, models: &Path) -> Result<()> {
 
 /// Holes of the sizes in the paper's Table 1, each as one cap of a sphere.
 fn rows_by_size(page: &mut String) -> Result<()> {
-    page.push_str("\n## Table 1 by size\n\nThe cost depends on the points of the vicinity m and the samples k. One hole each with at least the m and the k of the paper's row, in a sphere:\n\n| paper | m | k | seconds | ours m | k | seconds | paper's over ours |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+    page.push_str("\n## Table 1 by size\n\nThe cost depends on the points of the vicinity m and the samples k. Each row is one hole in a sphere, with at least the m and the k of the paper:\n\n| paper | m | k | seconds | ours m | k | seconds | paper's over ours |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
     for row in &TABLE_1 {
         let samples = row.vertices_after - row.vertices_before;
-        // So that the vicinity ends well before the equator, where the plane would see it fold.
+        // The vicinity must end well before the equator, where its projection to the plane folds.
         let least = 6 * ((8.0 * row.vicinity as f64).sqrt() / 6.0).ceil() as usize;
         let caps = [10, 15, 20, 30].map(|degrees| (least, degrees));
         let finer = (1..).map(|i| (least + 12 * i, 30));
@@ -190,7 +190,7 @@ fn rows_by_size(page: &mut String) -> Result<()> {
 
 /// The time over m, and over k.
 fn cost(page: &mut String, results: &Path) -> Result<()> {
-    page.push_str("\n## Cost over m and k\n\n![Time over m k](mls-cost.svg)\n\nCaps of one sphere. Over m: one hole of 30 degrees, with a wider and wider vicinity. Over k: wider and wider holes with three parallels of vicinity. Over both: finer and finer spheres. The time over m k tends to a constant; what is left where m k is small is the triangulation and the checks.\n\n| | m | k | seconds | nanoseconds / (m k) |\n| --- | ---: | ---: | ---: | ---: |\n");
+    page.push_str("\n## Cost over m and k\n\n![Time over m k](mls-cost.svg)\n\nCaps of one sphere. Over m: one hole of 30 degrees, with a wider and wider vicinity. Over k: wider and wider holes with three parallels of vicinity. Over both: finer and finer spheres. The time over m k tends to a constant. Where m k is small, the triangulation and the checks dominate.\n\n| | m | k | seconds | nanoseconds / (m k) |\n| --- | ---: | ---: | ---: | ---: |\n");
     let over_m = [2, 3, 4, 6, 8, 11, 15].map(|rows| (120, 30, rows));
     let over_k = [9, 12, 15, 21, 30, 39, 45].map(|degrees| (120, degrees, 3));
     let over_both = [24, 36, 60, 96, 144, 192, 240].map(|meridians| (meridians, 30, 3));
@@ -240,7 +240,7 @@ impl Cap {
         }
     }
 
-    /// The width of a vicinity of so many parallels, the rim's among them, in sampling steps.
+    /// The width of a vicinity of this many parallels, rim included, in sampling steps.
     fn beta(&self, parallels: usize) -> f64 {
         let p = |v: u32| self.mesh.positions()[v as usize];
         let rim = self.meridians as u32;
@@ -255,7 +255,7 @@ impl Cap {
         (parallels as f64 - 0.5) * apart / step
     }
 
-    /// Fills the hole by the plane with a vicinity of so many parallels.
+    /// Fills the hole over the plane, with a vicinity of this many parallels.
     fn fill(&self, parallels: usize, runs: usize) -> Result<Filled> {
         let beta = self.beta(parallels).to_string();
         let options = options(&[("mls.beta", &beta), ("mls.domain", "plane")])?;
@@ -280,9 +280,9 @@ fn area([a, b, c]: [[f64; 3]; 3]) -> f64 {
     (s * (s - x) * (s - y) * (s - z)).max(0.0).sqrt()
 }
 
-/// The vertices alone, to a mesh, and its holes filled.
+/// Makes a mesh from the vertices alone, and fills its holes.
 fn from_points(page: &mut String, models: &Path) -> Result<()> {
-    page.push_str("\n## From points alone\n\nThe vertices of three models without their triangles, and moved along each axis by up to 1 % of the mean edge; then filled by `mls`, but for the two ends of the cylinder. More in [points](points.md).\n\n| model | noise | points | used | triangles | edges with more than two triangles | boundary loops, edges | the model's | seconds to the mesh | holes left |\n| --- | ---: | ---: | ---: | ---: | ---: | --- | --- | ---: | ---: |\n");
+    page.push_str("\n## From points alone\n\nThe vertices of three models, without their triangles. With noise, they are moved along each axis by up to 1 % of the mean edge. Then all holes are filled by `mls`, except the two ends of the cylinder. More in [points](points.md).\n\n| model | noise | points | used | triangles | edges with more than two triangles | boundary loops, edges | the model's | seconds to the mesh | holes left |\n| --- | ---: | ---: | ---: | ---: | ---: | --- | --- | ---: | ---: |\n");
     for (model, open) in [("bunny_natural", 0), ("mls_cap30", 0), ("cylinder_side", 2)] {
         let case = Case::read(models, model)?;
         let original = loop_sizes(&case.mesh);

@@ -1,13 +1,13 @@
-//! Runs the experiment of A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular meshes
-//! by curve unfolding", 2009, Table 1, on models that are at hand, and those that show what unfolding costs. Writes
-//! Markdown and a plot beside the paper's figures:
+//! Repeats the experiment of A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular
+//! meshes by curve unfolding", 2009, Table 1, on our models. Also measures the cost of unfolding. Writes Markdown, with
+//! the figures of the paper, and a plot:
 //!
 //! ```sh
 //! cargo run --release --example unfold_tables -- ../shared/data/cases docs/results
 //! ```
 //!
-//! The first argument is the folder of the models, each with `input.ply` and `meta.json`; the second one is where
-//! `unfold.md` and `unfold-growth.svg` go.
+//! The first argument is the folder of the models, each with `input.ply` and `meta.json`. The second argument is the
+//! folder for `unfold.md` and `unfold-growth.svg`.
 
 mod shared;
 
@@ -21,13 +21,13 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::Path;
 
-/// Runs that the paper's figures are means of, here seeds.
+/// Number of seeds over which figures are averaged; the paper averages over as many runs.
 const SEEDS: u64 = 10;
 
-/// Runs of the annealing for each seed: the paper makes up to 100, which take minutes on a rim that it does not unfold.
+/// Runs of the annealing for each seed. The paper makes up to 100, which take minutes on a rim that is not unfolded.
 const ANNEALING_RUNS: usize = 5;
 
-/// The paper's row that comes nearest to each of our models.
+/// The most similar row of the paper for each of our models.
 const MODELS: [(&str, &str); 9] = [
     ("bunny_natural", "Bunny"),
     ("armpit", "Armpit"),
@@ -55,7 +55,7 @@ const PAPER_EDGES: std::ops::RangeInclusive<usize> = 33..=79;
 const MANY_HOLES: usize = 8;
 const MANY_EDGES: usize = 666;
 
-/// A hole's rim, by itself.
+/// The rim of a hole.
 struct Rim<'a> {
     case: &'a Case,
     edge: [u32; 2],
@@ -64,10 +64,10 @@ struct Rim<'a> {
 
 fn main() -> Result<()> {
     let (models, results) = folders()?;
-    let mut page = String::from("# Curve unfolding beside the paper\n\n");
+    let mut page = String::from("# Curve unfolding compared with the paper\n\n");
     writeln!(
         page,
-        "A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, \"Filling holes in triangular meshes by curve unfolding\", 2009. Made by {}. Seconds are processor time on one thread. Figures of unfolding are means over {SEEDS} seeds, as the paper's are over 10 runs.\n",
+        "A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, \"Filling holes in triangular meshes by curve unfolding\", 2009. Made by {}. Seconds are processor time on one thread. Figures of unfolding are means over {SEEDS} seeds; those of the paper are means over 10 runs.\n",
         command("unfold_tables")
     )?;
     let cases: Vec<Case> = MODELS
@@ -106,7 +106,7 @@ fn rims_of(case: &Case) -> Result<Vec<Rim<'_>>> {
         .collect())
 }
 
-/// What unfolding a rim with all seeds gave.
+/// Results of unfolding a rim with all seeds.
 #[derive(Default)]
 struct Unfolded {
     /// Sum over the seeds.
@@ -151,7 +151,7 @@ fn unfold(points: &[[f64; 3]], solver: UnfoldSolver) -> Result<Unfolded> {
             }
             Ok(_) => return Err("a polygon is not simple".into()),
             Err(_) => {
-                // The other seeds would take as long for nothing.
+                // The other seeds would fail too, after the same time.
                 all.failures += 1;
                 break;
             }
@@ -160,7 +160,7 @@ fn unfold(points: &[[f64; 3]], solver: UnfoldSolver) -> Result<Unfolded> {
     Ok(all)
 }
 
-/// Whether no two edges of the polygon meet but in the vertex that they share, decided exactly for each pair.
+/// Whether no two edges of the polygon meet, except in a common vertex. Decided exactly for each pair.
 fn is_simple(polygon: &[[f64; 2]]) -> bool {
     let m = polygon.len();
     let at = |i: usize| polygon[i % m];
@@ -180,8 +180,8 @@ fn is_simple(polygon: &[[f64; 2]]) -> bool {
                 (side(c, d, a), c, d, a),
                 (side(c, d, b), c, d, b),
             ];
-            let is_neighbour = k == i + 1 || (i == 0 && k == m - 1);
-            if is_neighbour {
+            let is_neighbor = k == i + 1 || (i == 0 && k == m - 1);
+            if is_neighbor {
                 // The far ends must not lie on the other edge.
                 return !sides
                     .iter()
@@ -200,8 +200,8 @@ fn is_simple(polygon: &[[f64; 2]]) -> bool {
 const METHODS: [Method; 2] = [Method::UnfoldArea, Method::UnfoldFairing];
 
 fn table_1(page: &mut String, cases: &[Case], rims: &[Rim<'_>]) -> Result<()> {
-    page.push_str("## Table 1\n\nThe paper's: n vertices of the model, m of the rim, d accepted steps.\n\n| model | n | m | d | unfolding, seconds | embedding, `E_AREA` | `E_DF` |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: |\n| Bunny | 1494 | 79 | 1.0 | 2 | 1 | – |\n| Armpit | 9951 | 35 | 4.8 | 3 | < 1 | < 1 |\n| Head 1 | 1177 | 33 | 2.0 | 2 | < 1 | < 1 |\n| Head 2 | 1189 | 53 | 2.9 | 5 | < 1 | < 1 |\n| Head 3 | 1157 | 63 | 16.4 | 2 | – | 5.3 |\n\n");
-    page.push_str("Ours, on the nearest models; the figures of a model with more than one hole are sums. `descent` is the default solver: a d of 0 means that the projection of the rim as it is was simple. `annealing` is the paper's; it projects only after a whole run, so its d counts all accepted steps of that run. It gets five runs for each seed here; with a rim that these do not unfold, no other seed was tried. Embedding is the whole fill with its checks, less the unfolding. Every polygon was checked again, edge by edge, by exact predicates.\n\n");
+    page.push_str("## Table 1\n\nThe paper: n vertices of the model, m of the rim, d accepted steps.\n\n| model | n | m | d | unfolding, seconds | embedding, `E_AREA` | `E_DF` |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: |\n| Bunny | 1494 | 79 | 1.0 | 2 | 1 | – |\n| Armpit | 9951 | 35 | 4.8 | 3 | < 1 | < 1 |\n| Head 1 | 1177 | 33 | 2.0 | 2 | < 1 | < 1 |\n| Head 2 | 1189 | 53 | 2.9 | 5 | < 1 | < 1 |\n| Head 3 | 1157 | 63 | 16.4 | 2 | – | 5.3 |\n\n");
+    page.push_str("Ours, on the most similar models. If a model has more than one hole, its figures are sums. `descent` is the default solver; d = 0 means that the projection of the rim was already simple. `annealing` is the solver of the paper. It projects only after a whole run, so its d counts all accepted steps of that run. Here it gets five runs for each seed; if they do not unfold a rim, no other seed is tried. Embedding is the whole fill with its checks, without the unfolding. Exact predicates checked every polygon again, edge by edge.\n\n");
     page.push_str("| model | nearest | n | m | d, `descent` | `annealing` | rims not unfolded, `descent` | `annealing` | unfolding, seconds, `descent` | `annealing` | embedding, `unfold-area` | `unfold-fairing` |\n| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
     let mut filled_rows = String::new();
     for (case, (_, paper)) in cases.iter().zip(MODELS) {
@@ -254,7 +254,7 @@ fn table_1(page: &mut String, cases: &[Case], rims: &[Rim<'_>]) -> Result<()> {
     }
     writeln!(
         page,
-        "\n## The patches\n\nHoles that the method filled itself, of all; pairs of triangles of the patch that intersect each other or the mesh.\n\n| model | method | holes | new vertices | intersections | seconds |\n| --- | --- | ---: | ---: | ---: | ---: |\n{filled_rows}"
+        "\n## The patches\n\nHoles: those that the method itself filled, of all. Intersections: pairs of triangles of the patch that intersect each other or the mesh.\n\n| model | method | holes | new vertices | intersections | seconds |\n| --- | --- | ---: | ---: | ---: | ---: |\n{filled_rows}"
     )?;
     Ok(())
 }
@@ -281,7 +281,7 @@ fn fills(rim: &Rim<'_>, method: Method) -> Result<Vec<f64>> {
 }
 
 fn paper_sizes(page: &mut String, rims: &[Rim<'_>]) -> Result<()> {
-    page.push_str("## Rims as large as the paper's\n\nAll rims of 33 to 79 edges in these and four more models: median over the seeds of the milliseconds of unfolding and of the whole fill. The paper has 2 to 5 seconds for unfolding alone.\n\n| model | edges | unfolding | `unfold-area` | `unfold-fairing` |\n| --- | ---: | ---: | ---: | ---: |\n");
+    page.push_str("## Rims as large as the paper's\n\nAll rims of 33 to 79 edges in these and four more models. Median over the seeds, in milliseconds, of the unfolding and of the whole fill. In the paper, the unfolding alone takes 2 to 5 seconds.\n\n| model | edges | unfolding | `unfold-area` | `unfold-fairing` |\n| --- | ---: | ---: | ---: | ---: |\n");
     let mut slowest = 0.0_f64;
     for rim in rims
         .iter()
@@ -306,9 +306,9 @@ fn paper_sizes(page: &mut String, rims: &[Rim<'_>]) -> Result<()> {
     Ok(())
 }
 
-/// Indices of `count` rims that have `edges` edges together, the first such choice.
+/// Indices of `count` rims with `edges` edges in total; the first such choice.
 fn choose(rims: &[Rim<'_>], count: usize, edges: usize) -> Option<Vec<usize>> {
-    // chosen[k][e]: k rims with e edges together.
+    // chosen[k][e]: k rims with e edges in total.
     let mut chosen: Vec<Vec<Option<Vec<usize>>>> = vec![vec![None; edges + 1]; count + 1];
     chosen[0][0] = Some(Vec::new());
     for (i, rim) in rims.iter().enumerate() {
@@ -332,7 +332,7 @@ fn many_holes(page: &mut String, rims: &[Rim<'_>]) -> Result<()> {
     let chosen = choose(rims, MANY_HOLES, MANY_EDGES).ok_or("no eight rims have 666 edges")?;
     writeln!(
         page,
-        "## Eight holes with 666 edges\n\nThe paper fills a model with {MANY_HOLES} holes and {MANY_EDGES} rim edges in 6.5 minutes. That many, from the models above:\n\n| model | edges | `unfold-area`, seconds | `unfold-fairing` |\n| --- | ---: | ---: | ---: |"
+        "## Eight holes with 666 edges\n\nThe paper fills a model with {MANY_HOLES} holes and {MANY_EDGES} rim edges in 6.5 minutes. The same numbers of holes and edges, from the models above:\n\n| model | edges | `unfold-area`, seconds | `unfold-fairing` |\n| --- | ---: | ---: | ---: |"
     )?;
     let mut sums = [0.0; 2];
     for i in chosen {
@@ -359,7 +359,7 @@ fn many_holes(page: &mut String, rims: &[Rim<'_>]) -> Result<()> {
     Ok(())
 }
 
-/// The rim of a strip that winds 1.4 times round a cylinder: no knot, but every projection crosses itself.
+/// The rim of a strip that winds 1.4 times round a cylinder. It is not knotted, but every projection crosses itself.
 fn winding_strip(m: usize) -> Vec<[f64; 3]> {
     const TURNS: f64 = 1.4;
     const WIDTH: f64 = 0.5;
@@ -396,7 +396,7 @@ fn wave(m: usize) -> Vec<[f64; 3]> {
 }
 
 fn growth(page: &mut String, results: &Path) -> Result<()> {
-    page.push_str("## Growth\n\n![Time of a step over the edges of the rim](unfold-growth.svg)\n\nMicroseconds per step. For `descent` the rim of a strip that winds 1.4 times round a cylinder, which is opened in the given number of steps, all accepted. For `annealing`, which does not open it, a run of 2000 steps on a circle that goes up and down; the time is over all steps, accepted or not.\n\n| m | `descent`, steps | per step | nanoseconds over m² | `annealing`, accepted | per step | nanoseconds over m² |\n| ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+    page.push_str("## Growth\n\n![Time of a step over the edges of the rim](unfold-growth.svg)\n\nMicroseconds per step. For `descent`: the rim of a strip that winds 1.4 times round a cylinder. It is unfolded in the given number of steps, all accepted. `annealing` does not unfold this rim, so its figures are for a run of 2000 steps on a circle that goes up and down, over all steps, accepted or not.\n\n| m | `descent`, steps | per step | nanoseconds over m² | `annealing`, accepted | per step | nanoseconds over m² |\n| ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
     let mut lines = ["descent", "annealing", "m², through the first of descent"].map(|name| Line {
         name: name.to_owned(),
         points: Vec::new(),

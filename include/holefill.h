@@ -535,6 +535,11 @@ typedef struct HolefillLoopInfo {
 } HolefillLoopInfo;
 
 /**
+ * How a target names loops: one of the `HOLEFILL_TARGET_` constants.
+ */
+typedef uint32_t HolefillTargetKind;
+
+/**
  * Rules that choose the loops to fill; all zero chooses every open loop.
  */
 typedef struct HolefillSelection {
@@ -567,6 +572,45 @@ typedef struct HolefillSelection {
      */
     uint64_t keep_largest;
 } HolefillSelection;
+
+/**
+ * Which loops to fill or to plan. All zero but the first two fields is every open loop, and so is a null pointer in the
+ * place of the struct. Only the fields that `kind` names are read.
+ */
+typedef struct HolefillTarget {
+    /**
+     * `sizeof(HolefillTarget)`
+     */
+    uint32_t struct_size;
+    /**
+     * `HOLEFILL_TARGET_VERSION`
+     */
+    uint32_t version;
+    /**
+     * How the loops are named.
+     */
+    HolefillTargetKind kind;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+    /**
+     * The id of a loop.
+     */
+    uint64_t loop_id;
+    /**
+     * A directed boundary edge as it runs in its triangle: from vertex 0 to vertex 1.
+     */
+    uint64_t edge[2];
+    /**
+     * Rows of one loop id, or of one vertex.
+     */
+    const struct HolefillInput *ids;
+    /**
+     * Rules.
+     */
+    const struct HolefillSelection *selection;
+} HolefillTarget;
 
 /**
  * Values of the parameters that have names. Free with `holefill_parameters_free`.
@@ -653,50 +697,6 @@ typedef struct HolefillFillOptions {
      */
     void *log_data;
 } HolefillFillOptions;
-
-/**
- * How a target names loops: one of the `HOLEFILL_TARGET_` constants.
- */
-typedef uint32_t HolefillTargetKind;
-
-/**
- * Which loops to fill or to plan. All zero but the first two fields is every open loop, and so is a null pointer in the
- * place of the struct. Only the fields that `kind` names are read.
- */
-typedef struct HolefillTarget {
-    /**
-     * `sizeof(HolefillTarget)`
-     */
-    uint32_t struct_size;
-    /**
-     * `HOLEFILL_TARGET_VERSION`
-     */
-    uint32_t version;
-    /**
-     * How the loops are named.
-     */
-    HolefillTargetKind kind;
-    /**
-     * Must be 0.
-     */
-    uint32_t reserved;
-    /**
-     * The id of a loop.
-     */
-    uint64_t loop_id;
-    /**
-     * A directed boundary edge as it runs in its triangle: from vertex 0 to vertex 1.
-     */
-    uint64_t edge[2];
-    /**
-     * Rows of one loop id, or of one vertex.
-     */
-    const struct HolefillInput *ids;
-    /**
-     * Rules.
-     */
-    const struct HolefillSelection *selection;
-} HolefillTarget;
 
 /**
  * What happened to each hole. Free with `holefill_report_free`.
@@ -1138,7 +1138,9 @@ typedef struct HolefillPrediction {
 #define HOLEFILL_TARGET_EDGE 2
 
 /**
- * The loops that the closed chain of the vertices `ids` consists of: see `holefill_mesh_find_vertices`.
+ * The loops that the closed chain of the vertices `ids` consists of, the last joined to the first. It may start anywhere
+ * and run either way. Where it visits a vertex twice it passes through more than one loop: loops are cut where the
+ * boundary touches itself.
  */
 #define HOLEFILL_TARGET_VERTICES 3
 
@@ -1510,63 +1512,22 @@ HolefillStatus holefill_mesh_read_loop(struct HolefillMesh mesh,
                                        struct HolefillError *error);
 
 /**
- * The loop through the boundary edge from vertex `from` to vertex `to`, as it runs in its triangle.
+ * The loops that `target` names, as `holefill_mesh_fill` takes it; null is every open loop.
  *
- * Statuses: `NOT_FOUND`; the message says when the edge runs the other way.
+ * `ids` gets the ids, ascending but for those that the target lists itself, and `count` their number, also when they do
+ * not fit into `capacity`. With `ids` null and `capacity` 0 only the number is written.
+ *
+ * Statuses: `NOT_FOUND` for a loop, an edge or a chain that the mesh does not have; for an edge that runs the other way
+ * the message says so. `INVALID_ARGUMENT` for an unknown kind of target or an edge of the rules that is on no loop;
+ * `BUFFER_TOO_SMALL`.
  */
 HOLEFILL_API
-HolefillStatus holefill_mesh_find_edge(struct HolefillMesh mesh,
-                                       uint64_t from,
-                                       uint64_t to,
-                                       uint64_t *loop_id,
-                                       struct HolefillError *error);
-
-/**
- * The loops that the closed chain `vertices` consists of: rows of one, of 32 or 64 bits, the last joined to the first.
- * It may start anywhere and run either way. Where it visits a vertex twice it passes through more than one loop: loops
- * are cut where the boundary touches itself.
- *
- * `ids` gets the ids, ascending, and `count` their number, also when they do not fit into `capacity`. With `ids` null
- * and `capacity` 0 only the number is written.
- *
- * Statuses: `NOT_FOUND` when the edges of the chain are not all edges of some loops, `BUFFER_TOO_SMALL`.
- */
-HOLEFILL_API
-HolefillStatus holefill_mesh_find_vertices(struct HolefillMesh mesh,
-                                           const struct HolefillInput *vertices,
-                                           uint64_t *ids,
-                                           uint64_t capacity,
-                                           uint64_t *count,
-                                           struct HolefillError *error);
-
-/**
- * The loops that the rules choose among those that are open.
- *
- * `selection` may be null: all open loops. `ids`, `capacity` and `count` as in `holefill_mesh_find_vertices`.
- *
- * Statuses: `INVALID_ARGUMENT` when an edge of the rules is on no loop, `BUFFER_TOO_SMALL`.
- */
-HOLEFILL_API
-HolefillStatus holefill_mesh_select(struct HolefillMesh mesh,
-                                    const struct HolefillSelection *selection,
-                                    uint64_t *ids,
-                                    uint64_t capacity,
-                                    uint64_t *count,
-                                    struct HolefillError *error);
-
-/**
- * Makes `selection` one that chooses every open loop. `struct_size` is `sizeof(HolefillSelection)` of the caller.
- */
-HOLEFILL_API
-HolefillStatus holefill_selection_init(struct HolefillSelection *selection,
-                                       uint32_t struct_size);
-
-/**
- * Makes `options` the defaults. `struct_size` is `sizeof(HolefillFillOptions)` of the caller.
- */
-HOLEFILL_API
-HolefillStatus holefill_fill_options_init(struct HolefillFillOptions *options,
-                                          uint32_t struct_size);
+HolefillStatus holefill_mesh_find_loops(struct HolefillMesh mesh,
+                                        const struct HolefillTarget *target,
+                                        uint64_t *ids,
+                                        uint64_t capacity,
+                                        uint64_t *count,
+                                        struct HolefillError *error);
 
 /**
  * Makes a set of parameters with their defaults.

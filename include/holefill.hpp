@@ -25,7 +25,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -64,29 +63,7 @@ using Result = T;
 
 /* A value, or why there is none. */
 template <class T>
-class [[nodiscard]] Expected {
-public:
-    Expected(T value) : value_(std::move(value)) {}
-    Expected(Failure failure) : failure_(std::move(failure)) {}
-
-    bool has_value() const noexcept { return value_.has_value(); }
-    explicit operator bool() const noexcept { return has_value(); }
-    /* The value. There must be one. */
-    T& value() & noexcept { return *value_; }
-    const T& value() const& noexcept { return *value_; }
-    T&& value() && noexcept { return std::move(*value_); }
-    T& operator*() & noexcept { return *value_; }
-    const T& operator*() const& noexcept { return *value_; }
-    T&& operator*() && noexcept { return std::move(*value_); }
-    T* operator->() noexcept { return &*value_; }
-    const T* operator->() const noexcept { return &*value_; }
-    /* Status HOLEFILL_STATUS_OK when there is a value. */
-    const Failure& failure() const noexcept { return failure_; }
-
-private:
-    std::optional<T> value_;
-    Failure failure_;
-};
+class Expected;
 
 template <>
 class [[nodiscard]] Expected<void> {
@@ -96,10 +73,31 @@ public:
 
     bool has_value() const noexcept { return failure_.status == HOLEFILL_STATUS_OK; }
     explicit operator bool() const noexcept { return has_value(); }
+    /* Status HOLEFILL_STATUS_OK when there is a value. */
     const Failure& failure() const noexcept { return failure_; }
 
 private:
     Failure failure_;
+};
+
+template <class T>
+class [[nodiscard]] Expected : public Expected<void> {
+public:
+    Expected(T value) : value_(std::move(value)) {}
+    Expected(Failure failure) : Expected<void>(std::move(failure)) {}
+
+    /* The value. There must be one. */
+    T& value() & noexcept { return *value_; }
+    const T& value() const& noexcept { return *value_; }
+    T&& value() && noexcept { return std::move(*value_); }
+    T& operator*() & noexcept { return *value_; }
+    const T& operator*() const& noexcept { return *value_; }
+    T&& operator*() && noexcept { return std::move(*value_); }
+    T* operator->() noexcept { return &*value_; }
+    const T* operator->() const noexcept { return &*value_; }
+
+private:
+    std::optional<T> value_;
 };
 
 template <class T>
@@ -109,8 +107,19 @@ using Result = Expected<T>;
 
 namespace detail {
 
-template <class T>
+/* The type of the numbers in a row. */
+template <class Row>
+struct Number {
+    using type = Row;
+};
+template <class T, std::size_t N>
+struct Number<std::array<T, N>> {
+    using type = T;
+};
+
+template <class Row>
 constexpr HolefillType scalar_type() {
+    using T = typename Number<Row>::type;
     if constexpr (std::is_same_v<T, double>) {
         return HOLEFILL_TYPE_F64;
     } else if constexpr (std::is_same_v<T, float>) {
@@ -131,97 +140,108 @@ constexpr HolefillType scalar_type() {
     }
 }
 
-/* A text or list of unknown length: `read(buffer, capacity, &length)` is called for the length and for the elements. A
- * text needs room for one more. */
-template <class List, class Read>
-HolefillStatus read_list(List& list, Read read) {
-    constexpr std::size_t END = std::is_same_v<List, std::string> ? 1 : 0;
-    uint64_t length = 0;
-    HolefillStatus status = read(static_cast<typename List::value_type*>(nullptr), uint64_t{0}, &length);
-    if (status == HOLEFILL_STATUS_OK && length > 0) {
-        list.resize(static_cast<std::size_t>(length) + END);
-        status = read(list.data(), uint64_t{list.size()}, &length);
-        list.resize(status == HOLEFILL_STATUS_OK ? static_cast<std::size_t>(length) : 0);
-    }
-    return status;
-}
-
-/* The error object of one call. */
-class ErrorObject {
+/* Calls of C that end with the first that fails: those after it are left out. */
+class Steps {
 public:
-    ErrorObject() = default;
-    ErrorObject(const ErrorObject&) = delete;
-    ErrorObject& operator=(const ErrorObject&) = delete;
-    ~ErrorObject() { holefill_error_free(error_); }
+    Steps() = default;
+    Steps(const Steps&) = delete;
+    Steps& operator=(const Steps&) = delete;
+    ~Steps() { holefill_error_free(error_); }
 
-    HolefillError* get() noexcept { return &error_; }
-
-    Failure failure(HolefillStatus status) const {
-        Failure failure{status, {}};
-        read_list(failure.message, [&](char* buffer, uint64_t capacity, uint64_t* length) {
-            return holefill_error_message(error_, buffer, capacity, length);
-        });
-        if (failure.message.empty()) {
-            failure.message = holefill_status_message(status);
+    /* Calls `function(arguments..., error)`. Returns whether no call has failed. */
+    template <class Function, class... Arguments>
+    bool operator()(Function function, Arguments... arguments) {
+        if (is_success()) {
+            status_ = function(arguments..., &error_);
         }
-        return failure;
+        return is_success();
+    }
+    /* What `function(arguments..., &value, error)` writes. */
+    template <class T, class Function, class... Arguments>
+    T query(T value, Function function, Arguments... arguments) {
+        (*this)(function, arguments..., &value);
+        return value;
+    }
+    /* The `count` rows of `width` elements that `function(arguments..., &output, error)` writes. */
+    template <class T, class Function, class... Arguments>
+    std::vector<T> rows(uint64_t count, uint64_t width, Function function, Arguments... arguments) {
+        std::vector<T> values(static_cast<std::size_t>(is_success() ? count * width : 0));
+        const HolefillOutput output{values.data(), count, 0, scalar_type<T>(), 0};
+        (*this)(function, arguments..., &output);
+        return values;
+    }
+    /* The text or list that `function(arguments..., buffer, capacity, &length, error)` writes. A text needs room for one
+     * more. */
+    template <class List, class Function, class... Arguments>
+    List list(Function function, Arguments... arguments) {
+        constexpr std::size_t END = std::is_same_v<List, std::string> ? 1 : 0;
+        List list;
+        uint64_t length = 0;
+        if ((*this)(function, arguments..., nullptr, uint64_t{0}, &length) && length > 0) {
+            list.resize(static_cast<std::size_t>(length) + END);
+            (*this)(function, arguments..., list.data(), uint64_t{list.size()}, &length);
+            list.resize(is_success() ? static_cast<std::size_t>(length) : 0);
+        }
+        return list;
+    }
+
+    bool is_success() const noexcept { return status_ == HOLEFILL_STATUS_OK || status_ == HOLEFILL_STATUS_INCOMPLETE; }
+    HolefillStatus status() const noexcept { return status_; }
+    /* Nothing, or the failure. */
+    Result<void> result() const {
+        if (!is_success()) {
+            return fail<void>();
+        }
+        return Result<void>();
+    }
+    /* The value, if no call has failed. */
+    template <class T>
+    Result<T> result(T value) const {
+        if (!is_success()) {
+            return fail<T>();
+        }
+        return value;
     }
 
 private:
+    template <class T>
+    Result<T> fail() const {
+        Failure failure{status_, {}};
+        const HolefillError error = error_;
+        Steps steps;
+        failure.message = steps.list<std::string>([&](char* buffer, uint64_t capacity, uint64_t* length, HolefillError*) {
+            return holefill_error_message(error, buffer, capacity, length);
+        });
+        if (failure.message.empty()) {
+            failure.message = holefill_status_message(status_);
+        }
+#ifndef HOLEFILL_NO_EXCEPTIONS
+        throw Exception(failure);
+#else
+        return failure;
+#endif
+    }
+
+    HolefillStatus status_ = HOLEFILL_STATUS_OK;
     HolefillError error_{};
 };
 
-inline bool is_success(HolefillStatus status) {
-    return status == HOLEFILL_STATUS_OK || status == HOLEFILL_STATUS_INCOMPLETE;
+/* One step of each kind. */
+template <class... Arguments>
+Result<void> run(Arguments... arguments) {
+    Steps call;
+    call(arguments...);
+    return call.result();
 }
-
-template <class T>
-Result<T> result(HolefillStatus status, const ErrorObject& error, T&& value) {
-    if (is_success(status)) {
-        return std::forward<T>(value);
-    }
-#ifndef HOLEFILL_NO_EXCEPTIONS
-    throw Exception(error.failure(status));
-#else
-    return error.failure(status);
-#endif
+template <class T, class... Arguments>
+Result<T> query(T value, Arguments... arguments) {
+    Steps call;
+    return call.result(call.query(std::move(value), arguments...));
 }
-
-/* What `function(value, error)` makes of a value, if its status is a success. */
-template <class T, class Function>
-Result<T> get(T value, Function function) {
-    ErrorObject error;
-    const HolefillStatus status = function(value, error.get());
-    return result(status, error, std::move(value));
-}
-
-/* What the C function `function(arguments..., &value, error)` writes. */
-template <class T, class Function, class... Arguments>
-Result<T> query(T value, Function function, Arguments... arguments) {
-    return get(std::move(value), [&](T& place, HolefillError* error) { return function(arguments..., &place, error); });
-}
-
-/* The text or list that the C function `function(arguments..., buffer, capacity, &length, error)` writes. */
-template <class List, class Function, class... Arguments>
-HolefillStatus read(List& list, HolefillError* error, Function function, Arguments... arguments) {
-    return read_list(list, [&](auto* buffer, uint64_t capacity, uint64_t* length) {
-        return function(arguments..., buffer, capacity, length, error);
-    });
-}
-
-/* Nothing, if the status of the C function `function(arguments..., error)` is a success. */
-template <class Function, class... Arguments>
-Result<void> run(Function function, Arguments... arguments) {
-    ErrorObject error;
-    const HolefillStatus status = function(arguments..., error.get());
-    if (!is_success(status)) {
-#ifndef HOLEFILL_NO_EXCEPTIONS
-        throw Exception(error.failure(status));
-#else
-        return error.failure(status);
-#endif
-    }
-    return Result<void>();
+template <class List, class... Arguments>
+Result<List> list(Arguments... arguments) {
+    Steps call;
+    return call.result(call.template list<List>(arguments...));
 }
 
 class Call;
@@ -360,17 +380,12 @@ public:
         return log_ = std::move(log), raw_.log_level = level, *this;
     }
     Result<void> set(const char* name, const char* value) {
-        return detail::run([&](HolefillError* error) {
-            Parameters parameters;
-            HolefillStatus status = make(parameters, error);
-            if (status == HOLEFILL_STATUS_OK) {
-                status = holefill_parameters_set(parameters.get(), name, value, error);
-            }
-            if (status == HOLEFILL_STATUS_OK) {
-                named_.emplace_back(name, value);
-            }
-            return status;
-        });
+        detail::Steps call;
+        const Parameters parameters = make(call);
+        if (call(holefill_parameters_set, parameters.get(), name, value)) {
+            named_.emplace_back(name, value);
+        }
+        return call.result();
     }
 
 private:
@@ -378,14 +393,12 @@ private:
     using Parameters = detail::Owned<HolefillParameters, holefill_parameters_free>;
 
     /* Makes a set of the parameters that were set. */
-    HolefillStatus make(Parameters& parameters, HolefillError* error) const {
-        HolefillParameters handle{};
-        HolefillStatus status = holefill_parameters_new(&handle, error);
-        parameters = Parameters(handle);
-        for (std::size_t i = 0; status == HOLEFILL_STATUS_OK && i < named_.size(); ++i) {
-            status = holefill_parameters_set(handle, named_[i].first.c_str(), named_[i].second.c_str(), error);
+    Parameters make(detail::Steps& call) const {
+        Parameters parameters(call.query(HolefillParameters{}, holefill_parameters_new));
+        for (const auto& [name, value] : named_) {
+            call(holefill_parameters_set, parameters.get(), name.c_str(), value.c_str());
         }
-        return status;
+        return parameters;
     }
 
     HolefillFillOptions raw_ = HOLEFILL_FILL_OPTIONS_INIT;
@@ -428,55 +441,47 @@ public:
 
     static int32_t progress(const HolefillProgress* progress, void* data) {
         Callbacks& self = *static_cast<Callbacks*>(data);
-        bool goes_on = true;
-        self.guarded([&] { goes_on = !self.progress_ || self.progress_(*progress); });
-        return goes_on && !self.has_thrown() ? 0 : 1;
+        return self.guarded([&] { return !self.progress_ || self.progress_(*progress); }) ? 0 : 1;
     }
     static void log(HolefillLogLevel level, const char* message, void* data) {
         Callbacks& self = *static_cast<Callbacks*>(data);
-        self.guarded([&] { self.log_(level, message); });
+        self.guarded([&] { return self.log_(level, message), true; });
     }
 
 private:
+    /* What `function` returns; false when a callback has thrown. One is called at a time. */
     template <class Function>
-    void guarded(Function function) {
+    bool guarded(Function function) {
 #ifndef HOLEFILL_NO_EXCEPTIONS
         try {
-            function();
+            return function() && !thrown_;
         } catch (...) {
-            const std::lock_guard<std::mutex> lock(mutex_);
             if (!thrown_) {
                 thrown_ = std::current_exception();
             }
+            return false;
         }
 #else
-        function();
-#endif
-    }
-    bool has_thrown() {
-#ifndef HOLEFILL_NO_EXCEPTIONS
-        const std::lock_guard<std::mutex> lock(mutex_);
-        return static_cast<bool>(thrown_);
-#else
-        return false;
+        return function();
 #endif
     }
 
     const Options::Progress& progress_;
     const Options::Log& log_;
 #ifndef HOLEFILL_NO_EXCEPTIONS
-    std::mutex mutex_;
     std::exception_ptr thrown_;
 #endif
 };
 
-/* One call with options. */
+/* The options of one call as C has them. */
 class Call : public Callbacks {
 public:
-    explicit Call(const Options& options)
-        : Callbacks(options.progress_, options.log_), options_(options), raw_(options.raw_) {
+    Call(const Options& options, Steps& call)
+        : Callbacks(options.progress_, options.log_),
+          parameters_(options.named_.empty() ? Options::Parameters() : options.make(call)), raw_(options.raw_) {
         Callbacks* callbacks = this;
         raw_.method = options.method_.empty() ? nullptr : options.method_.c_str();
+        raw_.parameters = parameters_.get();
         if (options.progress_ || options.log_) {
             raw_.progress = &Callbacks::progress;
             raw_.progress_data = callbacks;
@@ -486,19 +491,9 @@ public:
             raw_.log_data = callbacks;
         }
     }
-    /* Calls `function` with the options as C has them. */
-    template <class Function>
-    HolefillStatus run(HolefillError* error, Function function) {
-        HolefillStatus status = options_.named_.empty() ? HOLEFILL_STATUS_OK : options_.make(parameters_, error);
-        if (status == HOLEFILL_STATUS_OK) {
-            raw_.parameters = parameters_.get();
-            status = function(&raw_);
-        }
-        return status;
-    }
+    const HolefillFillOptions* raw() const noexcept { return &raw_; }
 
 private:
-    const Options& options_;
     Options::Parameters parameters_;
     HolefillFillOptions raw_;
 };
@@ -531,52 +526,41 @@ public:
     }
     /* Entry `index`, in the order of the loops' ids. */
     Result<Hole> hole(uint64_t index) const {
-        return detail::get(Hole{HOLEFILL_HOLE_INIT, {}, {}, {}},
-                           [&](auto& hole, auto* error) { return read_hole(index, hole, error); });
+        detail::Steps call;
+        return call.result(read_hole(index, call));
     }
     Result<std::vector<Hole>> holes() const {
-        return detail::get(std::vector<Hole>(), [&](auto& holes, auto* error) {
-            HolefillSummary summary = HOLEFILL_SUMMARY_INIT;
-            HolefillStatus status = holefill_report_summary(get(), &summary, error);
-            for (uint64_t i = 0; status == HOLEFILL_STATUS_OK && i < summary.hole_count; ++i) {
-                holes.push_back(Hole{HOLEFILL_HOLE_INIT, {}, {}, {}});
-                status = read_hole(i, holes.back(), error);
-            }
-            return status;
-        });
+        detail::Steps call;
+        const auto summary = call.query<HolefillSummary>(HOLEFILL_SUMMARY_INIT, holefill_report_summary, get());
+        std::vector<Hole> holes;
+        for (uint64_t i = 0; i < summary.hole_count && call.is_success(); ++i) {
+            holes.push_back(read_hole(i, call));
+        }
+        return call.result(std::move(holes));
     }
     /* Everything, as holefill_report_json says. */
     Result<std::string> json() const {
-        return detail::get(std::string(), [&](auto& text, auto* error) {
-            return detail::read(text, error, holefill_report_json, get());
-        });
+        return detail::list<std::string>(holefill_report_json, get());
     }
     HolefillReport get() const noexcept { return handle_.get(); }
 
 private:
-    HolefillStatus read_hole(uint64_t index, Hole& hole, HolefillError* error) const {
-        HolefillStatus status = holefill_report_hole(get(), index, &hole, error);
-        if (status == HOLEFILL_STATUS_OK) {
-            status = detail::read(hole.reason, error, holefill_report_reason, get(), index);
-        }
-        for (uint32_t k = 0; status == HOLEFILL_STATUS_OK && k < hole.tried_count; ++k) {
-            Attempt attempt;
+    Hole read_hole(uint64_t index, detail::Steps& call) const {
+        Hole hole{HOLEFILL_HOLE_INIT, {}, {}, {}};
+        call(holefill_report_hole, get(), index, &hole);
+        hole.reason = call.list<std::string>(holefill_report_reason, get(), index);
+        for (uint32_t k = 0; k < hole.tried_count && call.is_success(); ++k) {
             const char* method = nullptr;
-            status = detail::read(attempt.reason, error, holefill_report_tried, get(), index, k, &method);
-            attempt.method = method ? method : "";
-            hole.tried.push_back(std::move(attempt));
+            std::string reason = call.list<std::string>(holefill_report_tried, get(), index, k, &method);
+            hole.tried.push_back({method ? method : "", std::move(reason)});
         }
-        if (status == HOLEFILL_STATUS_OK) {
-            HolefillPrediction found = HOLEFILL_PREDICTION_INIT;
-            status = holefill_report_prediction(get(), index, &found, nullptr);
-            if (status == HOLEFILL_STATUS_OK) {
-                hole.prediction = found;
-            } else if (status == HOLEFILL_STATUS_NOT_FOUND) {
-                /* Most methods predict nothing, which is no error. */
-                status = HOLEFILL_STATUS_OK;
-            }
+        HolefillPrediction found = HOLEFILL_PREDICTION_INIT;
+        /* Most methods predict nothing, which is no error. */
+        if (holefill_report_prediction(get(), index, &found, nullptr) != HOLEFILL_STATUS_NOT_FOUND &&
+            call(holefill_report_prediction, get(), index, &found)) {
+            hole.prediction = found;
         }
-        return status;
+        return hole;
     }
 
     detail::Owned<HolefillReport, holefill_report_free> handle_;
@@ -600,31 +584,17 @@ public:
     /* Whether every hole that was asked for has a patch. */
     bool is_complete() const noexcept { return status_ != HOLEFILL_STATUS_INCOMPLETE; }
     Result<Report> report() const {
-        return detail::get(Report({}, status_), [&](auto& report, auto* error) {
-            HolefillReport handle{};
-            const HolefillStatus status = holefill_plan_report(get(), &handle, error);
-            report = Report(handle, status_);
-            return status;
-        });
+        detail::Steps call;
+        return call.result(Report(call.query(HolefillReport{}, holefill_plan_report, get()), status_));
     }
     /* The patch for a loop. Fails with HOLEFILL_STATUS_NOT_FOUND when the plan has none: its report says why. */
     Result<Patch> patch(uint64_t loop_id) const {
-        return detail::get(Patch(), [&](auto& patch, auto* error) {
-            HolefillPatchInfo info = HOLEFILL_PATCH_INFO_INIT;
-            HolefillStatus status = holefill_plan_patch(get(), loop_id, &info, error);
-            if (status == HOLEFILL_STATUS_OK) {
-                patch.first_vertex = info.first_vertex;
-                patch.positions.resize(static_cast<std::size_t>(info.vertex_count));
-                const HolefillOutput output{patch.positions.data(), info.vertex_count, 0, HOLEFILL_TYPE_F64, 0};
-                status = holefill_plan_read_positions(get(), loop_id, 0, &output, error);
-            }
-            if (status == HOLEFILL_STATUS_OK) {
-                patch.triangles.resize(static_cast<std::size_t>(info.triangle_count));
-                const HolefillOutput output{patch.triangles.data(), info.triangle_count, 0, HOLEFILL_TYPE_U64, 0};
-                status = holefill_plan_read_triangles(get(), loop_id, 0, &output, error);
-            }
-            return status;
-        });
+        detail::Steps call;
+        const auto info = call.query<HolefillPatchInfo>(HOLEFILL_PATCH_INFO_INIT, holefill_plan_patch, get(), loop_id);
+        return call.result(Patch{
+            info.first_vertex,
+            call.rows<std::array<double, 3>>(info.vertex_count, 1, holefill_plan_read_positions, get(), loop_id, 0),
+            call.rows<std::array<uint64_t, 3>>(info.triangle_count, 1, holefill_plan_read_triangles, get(), loop_id, 0)});
     }
     HolefillPlan get() const noexcept { return handle_.get(); }
 
@@ -668,18 +638,16 @@ public:
             raw.progress_data = &callbacks;
         }
         HolefillPointSummary became = HOLEFILL_POINT_SUMMARY_INIT;
-        return detail::get(Mesh({}), [&](auto& mesh, auto* error) {
-            HolefillMesh handle{};
-            const HolefillStatus status =
-                holefill_mesh_from_points(points.get(), normals ? normals->get() : nullptr,
-                                          colors ? colors->get() : nullptr, &raw, &handle, &became, error);
-            mesh = Mesh(handle);
-            callbacks.rethrow();
-            if (summary && status == HOLEFILL_STATUS_OK) {
-                *summary = became;
-            }
-            return status;
-        });
+        detail::Steps call;
+        Mesh mesh(call.query(HolefillMesh{}, [&](HolefillMesh* made, HolefillError* error) {
+            return holefill_mesh_from_points(points.get(), normals ? normals->get() : nullptr,
+                                             colors ? colors->get() : nullptr, &raw, made, &became, error);
+        }));
+        callbacks.rethrow();
+        if (summary && call.is_success()) {
+            *summary = became;
+        }
+        return call.result(std::move(mesh));
     }
 
     Result<HolefillMeshInfo> info() const {
@@ -688,9 +656,7 @@ public:
     Result<HolefillDefects> defects() const {
         return detail::query<HolefillDefects>(HOLEFILL_DEFECTS_INIT, holefill_mesh_defects, get());
     }
-    Result<void> prepare() const {
-        return detail::run(holefill_mesh_prepare, get());
-    }
+    Result<void> prepare() const { return detail::run(holefill_mesh_prepare, get()); }
     /* The vertices from `first` on, as float or double. */
     template <class T = double>
     Result<std::vector<std::array<T, 3>>> positions(uint64_t first = 0) const {
@@ -711,34 +677,26 @@ public:
         return detail::run(holefill_mesh_add_attribute, get(), element, name, components, &input);
     }
     Result<std::vector<Attribute>> attributes(HolefillElement element) const {
-        return detail::get(std::vector<Attribute>(), [&](auto& attributes, auto* error) {
-            uint64_t count = 0;
-            HolefillStatus status = holefill_mesh_attribute_count(get(), element, &count, error);
-            for (uint64_t i = 0; status == HOLEFILL_STATUS_OK && i < count; ++i) {
-                Attribute attribute{HOLEFILL_ATTRIBUTE_INFO_INIT, {}};
-                status = holefill_mesh_attribute_info(get(), element, i, &attribute, error);
-                if (status == HOLEFILL_STATUS_OK) {
-                    status = detail::read(attribute.name, error, holefill_mesh_attribute_name, get(), element, i);
-                }
-                attributes.push_back(std::move(attribute));
-            }
-            return status;
-        });
+        detail::Steps call;
+        const uint64_t count = call.query(uint64_t{0}, holefill_mesh_attribute_count, get(), element);
+        std::vector<Attribute> attributes;
+        for (uint64_t i = 0; i < count && call.is_success(); ++i) {
+            Attribute attribute{HOLEFILL_ATTRIBUTE_INFO_INIT, {}};
+            call(holefill_mesh_attribute_info, get(), element, i, &attribute);
+            attribute.name = call.list<std::string>(holefill_mesh_attribute_name, get(), element, i);
+            attributes.push_back(std::move(attribute));
+        }
+        return call.result(std::move(attributes));
     }
     /* The values of attribute `index` from row `first` on, one row after the other, in its own type or as double. */
     template <class T = double>
     Result<std::vector<T>> attribute(HolefillElement element, uint64_t index, uint64_t first = 0) const {
-        return detail::get(std::vector<T>(), [&](auto& values, auto* error) {
-            HolefillAttributeInfo info = HOLEFILL_ATTRIBUTE_INFO_INIT;
-            HolefillStatus status = holefill_mesh_attribute_info(get(), element, index, &info, error);
-            if (status == HOLEFILL_STATUS_OK) {
-                const uint64_t count = first < info.count ? info.count - first : 0;
-                values.resize(static_cast<std::size_t>(count * info.components));
-                const HolefillOutput output{values.data(), count, 0, detail::scalar_type<T>(), 0};
-                status = holefill_mesh_read_attribute(get(), element, index, first, &output, error);
-            }
-            return status;
-        });
+        detail::Steps call;
+        const auto info = call.query<HolefillAttributeInfo>(HOLEFILL_ATTRIBUTE_INFO_INIT, holefill_mesh_attribute_info,
+                                                            get(), element, index);
+        const uint64_t count = first < info.count ? info.count - first : 0;
+        return call.result(
+            call.rows<T>(count, info.components, holefill_mesh_read_attribute, get(), element, index, first));
     }
 
     Result<uint64_t> loop_count() const {
@@ -748,68 +706,48 @@ public:
         return detail::query<HolefillLoopInfo>(HOLEFILL_LOOP_INFO_INIT, holefill_mesh_loop_info, get(), loop_id);
     }
     Result<std::vector<HolefillLoopInfo>> loops() const {
-        using Loops = std::vector<HolefillLoopInfo>;
-        return detail::get(Loops(), [&](auto& loops, auto* error) {
-            uint64_t count = 0;
-            HolefillStatus status = holefill_mesh_loop_count(get(), &count, error);
-            for (uint64_t i = 0; status == HOLEFILL_STATUS_OK && i < count; ++i) {
-                loops.push_back(HOLEFILL_LOOP_INFO_INIT);
-                status = holefill_mesh_loop_info(get(), i, &loops.back(), error);
-            }
-            return status;
-        });
+        detail::Steps call;
+        const uint64_t count = call.query(uint64_t{0}, holefill_mesh_loop_count, get());
+        std::vector<HolefillLoopInfo> loops;
+        for (uint64_t i = 0; i < count && call.is_success(); ++i) {
+            loops.push_back(HOLEFILL_LOOP_INFO_INIT);
+            call(holefill_mesh_loop_info, get(), i, &loops.back());
+        }
+        return call.result(std::move(loops));
     }
     /* The vertices of a loop, in the direction in which its triangles run. */
     Result<std::vector<uint64_t>> loop_vertices(uint64_t loop_id) const {
-        return detail::get(std::vector<uint64_t>(), [&](auto& vertices, auto* error) {
-            HolefillLoopInfo info = HOLEFILL_LOOP_INFO_INIT;
-            HolefillStatus status = holefill_mesh_loop_info(get(), loop_id, &info, error);
-            if (status == HOLEFILL_STATUS_OK) {
-                vertices.resize(static_cast<std::size_t>(info.vertex_count));
-                const HolefillOutput output{vertices.data(), info.vertex_count, 0, HOLEFILL_TYPE_U64, 0};
-                status = holefill_mesh_read_loop(get(), loop_id, 0, &output, error);
-            }
-            return status;
-        });
+        detail::Steps call;
+        const auto info = call.query<HolefillLoopInfo>(HOLEFILL_LOOP_INFO_INIT, holefill_mesh_loop_info, get(), loop_id);
+        return call.result(call.rows<uint64_t>(info.vertex_count, 1, holefill_mesh_read_loop, get(), loop_id, 0));
     }
-    Result<uint64_t> find_edge(uint64_t from, uint64_t to) const {
-        return detail::query(uint64_t{0}, holefill_mesh_find_edge, get(), from, to);
-    }
-    Result<std::vector<uint64_t>> find_vertices(const Rows<1>& vertices) const {
-        return detail::get(std::vector<uint64_t>(), [&](auto& ids, auto* error) {
-            return detail::read(ids, error, holefill_mesh_find_vertices, get(), vertices.get());
-        });
-    }
-    Result<std::vector<uint64_t>> select(const Selection& selection) const {
-        const HolefillSelection raw = selection.raw();
-        return detail::get(std::vector<uint64_t>(), [&](auto& ids, auto* error) {
-            return detail::read(ids, error, holefill_mesh_select, get(), &raw);
+    /* The ids of the loops that a target names: every open loop, if there is none. */
+    Result<std::vector<uint64_t>> find_loops(const Target& target = {}) const {
+        return target.with([&](const HolefillTarget* t) {
+            return detail::list<std::vector<uint64_t>>(holefill_mesh_find_loops, get(), t);
         });
     }
 
     /* Fills holes: every open loop, if no target is given. */
     Result<Report> fill(const Target& target, const Options& options = {}) {
-        return make<HolefillReport, Report>(options, [&](auto* raw, auto* report, auto* error) {
-            return target.with([&](const HolefillTarget* t) { return holefill_mesh_fill(get(), t, raw, report, error); });
+        return make<Report>(HolefillReport{}, options, [&](auto... last) {
+            return target.with([&](const HolefillTarget* t) { return holefill_mesh_fill(get(), t, last...); });
         });
     }
     Result<Report> fill(const Options& options = {}) { return fill(Target(), options); }
-    Result<void> undo() {
-        return detail::run(holefill_mesh_undo, get());
-    }
+    Result<void> undo() { return detail::run(holefill_mesh_undo, get()); }
 
     /* Makes patches and leaves the mesh as it is. */
     Result<Plan> plan(const Target& target, const Options& options = {}) const {
-        return make<HolefillPlan, Plan>(options, [&](auto* raw, auto* plan, auto* error) {
-            return target.with([&](const HolefillTarget* t) { return holefill_mesh_plan(get(), t, raw, plan, error); });
+        return make<Plan>(HolefillPlan{}, options, [&](auto... last) {
+            return target.with([&](const HolefillTarget* t) { return holefill_mesh_plan(get(), t, last...); });
         });
     }
     Result<Plan> plan(const Options& options = {}) const { return plan(Target(), options); }
     /* Appends the patches of a plan. Of `options` only the callbacks count. */
     Result<Report> apply(const Plan& plan, const Options& options = {}) {
-        return make<HolefillReport, Report>(options, [&](auto* raw, auto* report, auto* error) {
-            return holefill_plan_apply(plan.get(), get(), raw, report, error);
-        });
+        return make<Report>(HolefillReport{}, options,
+                            [&](auto... last) { return holefill_plan_apply(plan.get(), get(), last...); });
     }
     HolefillMesh get() const noexcept { return handle_.get(); }
 
@@ -817,38 +755,25 @@ private:
     template <class T, class Read>
     Result<std::vector<std::array<T, 3>>> read_rows(uint64_t first, uint64_t HolefillMeshInfo::*total,
                                                     Read read) const {
-        using List = std::vector<std::array<T, 3>>;
-        return detail::get(List(), [&](auto& rows, auto* error) {
-            HolefillMeshInfo info = HOLEFILL_MESH_INFO_INIT;
-            HolefillStatus status = holefill_mesh_info(get(), &info, error);
-            if (status == HOLEFILL_STATUS_OK) {
-                rows.resize(static_cast<std::size_t>(first < info.*total ? info.*total - first : 0));
-                const HolefillOutput output{rows.data(), rows.size(), 0, detail::scalar_type<T>(), 0};
-                status = read(get(), first, &output, error);
-            }
-            return status;
-        });
+        detail::Steps call;
+        const auto info = call.query<HolefillMeshInfo>(HOLEFILL_MESH_INFO_INIT, holefill_mesh_info, get());
+        const uint64_t count = first < info.*total ? info.*total - first : 0;
+        return call.result(call.rows<std::array<T, 3>>(count, 1, read, get(), first));
     }
     template <class Function>
     static Result<Mesh> make(Function function, const HolefillInput* a, const HolefillInput* b) {
-        return detail::get(Mesh({}), [&](auto& mesh, auto* error) {
-            HolefillMesh handle{};
-            const HolefillStatus status = function(a, b, &handle, error);
-            mesh = Mesh(handle);
-            return status;
-        });
+        detail::Steps call;
+        return call.result(Mesh(call.query(HolefillMesh{}, function, a, b)));
     }
-    template <class Handle, class Owner, class Function>
-    static Result<Owner> make(const Options& options, Function function) {
-        return detail::get(Owner(Handle{}), [&](auto& owner, auto* error) {
-            Handle handle{};
-            detail::Call call(options);
-            const HolefillStatus status =
-                call.run(error, [&](const HolefillFillOptions* raw) { return function(raw, &handle, error); });
-            owner = Owner(handle, status);
-            call.rethrow();
-            return status;
-        });
+    /* What `function(options, &handle, error)` makes. */
+    template <class Owner, class Handle, class Function>
+    static Result<Owner> make(Handle handle, const Options& options, Function function) {
+        detail::Steps call;
+        detail::Call given(options, call);
+        handle = call.query(handle, [&](Handle* made, HolefillError* error) { return function(given.raw(), made, error); });
+        Owner owner(handle, call.status());
+        given.rethrow();
+        return call.result(std::move(owner));
     }
 
     detail::Owned<HolefillMesh, holefill_mesh_free> handle_;

@@ -10,7 +10,7 @@
 
 namespace {
 
-/* A name that makes the library copy a value from the nearest element. */
+/* The word `index` in this name makes the library copy the value from the nearest element. */
 const char* const TEXTURE_INDEX = "texture index";
 /* Texture coordinates of corners, as an attribute of vertices. */
 const char* const CORNER_COORDINATES = "corner coordinates";
@@ -43,7 +43,7 @@ void write_point(Point& point, const double* row) {
     }
 }
 
-/* The names of the attributes of type T in one of the host's sets. */
+/* The names of the attributes of type T in a set of the host. */
 template <class T, class Set>
 std::vector<std::string> names_of(const Set& attributes) {
     std::vector<std::string> names;
@@ -106,7 +106,7 @@ void Attributes::collect_vertex_values(const Carried& carried) {
                              carried.texture ? TEXTURE_INDEX : ""});
     }
     if (m.vert.IsCurvatureDirEnabled()) {
-        // Curvature belongs to the surface that was there: new vertices have none until it is computed again.
+        // New vertices have no curvature until the user computes it again.
         channels_.push_back({vertex, 1, HOLEFILL_TYPE_F64, nullptr,
                              [&m](std::size_t i, const double*) {
                                  m.vert[i].PD1().SetZero();
@@ -132,7 +132,7 @@ void Attributes::collect_face_values(const Carried& carried) {
                              carried.quality ? "quality" : ""});
     }
     if (m.face.IsWedgeTexCoordEnabled()) {
-        // The coordinates themselves are continued by vertex.
+        // The coordinates themselves are a vertex attribute, see collect_wedges.
         channels_.push_back({face, 1, HOLEFILL_TYPE_I32, [&m](std::size_t i, double* row) { *row = m.face[i].WT(0).N(); },
                              [&m](std::size_t i, const double* row) {
                                  for (int k = 0; k < 3; ++k) {
@@ -152,11 +152,11 @@ void Attributes::collect_face_values(const Carried& carried) {
     }
 }
 
-/* The two types that scripts can make. */
+/* Scalars and points: scripts can make only these. */
 void Attributes::collect_custom_values(bool is_carried) {
     using Allocator = vcg::tri::Allocator<CMeshO>;
     CMeshO& m = model_.cm;
-    // Names of the host need not be UTF-8, and must not be taken for the library's own.
+    // The host's names need not be UTF-8, and could be equal to names that the library interprets.
     const auto name = [&] { return is_carried ? "custom " + std::to_string(channels_.size()) : std::string(); };
     const auto scalars = [&](HolefillElement element, auto handle) {
         channels_.push_back({element, 1, HOLEFILL_TYPE_F64,
@@ -184,7 +184,8 @@ void Attributes::collect_custom_values(bool is_carried) {
     }
 }
 
-/* A corner has coordinates of its own, and a vertex at a seam several. The patch goes on from those at the rim. */
+/* Each corner has its own coordinates, so a vertex at a seam has several. The patch continues those of the corners at
+ * the rim. */
 void Attributes::collect_wedges(holefill::Mesh& mesh, const Places& places, bool is_carried) {
     CMeshO& m = model_.cm;
     if (!m.face.IsWedgeTexCoordEnabled()) {
@@ -235,7 +236,7 @@ void Attributes::hand_over(holefill::Mesh& mesh, const Channel& channel, const s
 
 namespace {
 
-/* The values of an attribute in these rows, which ascend, one row after the other. */
+/* The values of an attribute in these rows, which must ascend. */
 std::vector<double> read_rows(const holefill::Mesh& mesh, HolefillElement element, const std::string& name,
                               uint32_t components, const std::vector<uint64_t>& rows) {
     std::vector<double> chosen;

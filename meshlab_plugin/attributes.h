@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/* Colors, quality, normals, texture coordinates and custom attributes on their way to the library and back. */
+/* Copies colors, quality, normals, texture coordinates and custom attributes to the library and back. */
 #ifndef HOLEFILL_MESHLAB_ATTRIBUTES_H
 #define HOLEFILL_MESHLAB_ATTRIBUTES_H
 
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-/* Which values new elements get from round their hole. Normals always. */
+/* Which values new elements get from the surface round their hole. They always get normals. */
 struct Carried {
     bool color = true;
     bool quality = true;
@@ -28,7 +28,7 @@ struct Places {
     std::vector<std::size_t> faces;
 };
 
-/* New vertices and triangles, as the library counts them. */
+/* New vertices and triangles, by their indices in the library. */
 struct NewElements {
     std::vector<uint64_t> vertices;
     std::vector<uint64_t> faces;
@@ -36,18 +36,18 @@ struct NewElements {
     std::vector<std::array<uint64_t, 3>> corners;
 };
 
-/* The values that the elements of a mesh have, each kind in a channel of its own. Numbers per vertex are interpolated
- * by the library, those per face and numbers of textures copied from the nearest element at the rim. Values that are
- * not carried become neutral ones: nothing is left as the host allocates it. */
+/* The values of the elements of a mesh, each kind in its own channel. The library interpolates numbers of vertices. It
+ * copies numbers of faces and texture indices from the nearest element at the rim. Values that are not carried get
+ * neutral values, so no new element keeps the memory contents that the host allocated. */
 class Attributes {
 public:
-    /* Hands the values of existing elements to the library. `model` must live longer. */
+    /* Passes the values of existing elements to the library. `model` must live longer. */
     Attributes(MeshModel& model, holefill::Mesh& mesh, const Places& places, const Carried& carried);
 
-    /* Takes the values of new elements from the library. The host's mesh stays as it is. */
+    /* Reads the values of new elements from the library. Does not change the host's mesh. */
     void fetch(const holefill::Mesh& mesh, const NewElements& elements);
 
-    /* Writes what was fetched to elements that the host has appended, in the same order. */
+    /* Writes the fetched values to elements that the host has appended, in the same order. */
     void write(const NewElements& elements, const Places& added) const;
 
 private:
@@ -58,9 +58,9 @@ private:
         /* Reads and writes the numbers of the element at a place in the host's list. */
         std::function<void(std::size_t, double*)> read;
         std::function<void(std::size_t, const double*)> write;
-        /* What new elements get without the library. */
+        /* The value of new elements if the library gives none. */
         double fallback;
-        /* The name that the library knows it by; empty when it is not carried. */
+        /* The name in the library; empty if the channel is not carried. */
         std::string name;
         /* The values of new elements, one row after the other. */
         std::vector<double> added = {};
@@ -74,8 +74,8 @@ private:
 
     MeshModel& model_;
     std::vector<Channel> channels_;
-    /* Texture coordinates of the corners, by vertex: of existing ones, then of new ones. Empty without corners that
-     * have any. */
+    /* Texture coordinates of corners, one pair a vertex: existing vertices, then new ones. Empty if corners have no
+     * texture coordinates. */
     std::vector<double> wedges_;
     bool wedges_are_carried_ = false;
     /* The number of existing vertices. */

@@ -10,7 +10,7 @@
 
 namespace {
 
-/* Between two calls of the host's function: it draws a bar, which needs no more. */
+/* Time between two calls of the host's function. It draws a bar, so 20 calls a second are enough. */
 constexpr std::chrono::milliseconds PERIOD(50);
 
 /* What the two threads share. */
@@ -23,7 +23,7 @@ struct State {
     std::exception_ptr thrown;
 };
 
-/* Whether the host lets the work go on. */
+/* False if the host cancels the work. */
 bool tell(vcg::CallBackPos* callback, const HolefillProgress& progress) {
     if (callback == nullptr) {
         return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/* Work on a thread of its own, while the host is told how far it is. */
+/* Runs work on its own thread and reports progress to the host. */
 #ifndef HOLEFILL_MESHLAB_BACKGROUND_H
 #define HOLEFILL_MESHLAB_BACKGROUND_H
 
@@ -9,11 +9,11 @@
 
 #include <functional>
 
-/* Does `work` on another thread and waits for it. The host's function, which may be null, is called about 20 times a
- * second, on the calling thread only, since it touches the host's windows. When it answers false, the work is
- * stopped. Whatever the work or the host's function throws is thrown again when the work has ended.
+/* Runs `work` on another thread and waits for it. The host's function may be null. It is called about 20 times a
+ * second, and only on the calling thread, because it uses the host's windows. If it returns false, the work is
+ * canceled. An exception of the work or of the host's function is thrown again after the work has ended.
  *
- * `work` gets the function that it must hand to the library as its progress. */
+ * `work` must pass the function that it gets to the library, as its progress function. */
 void run_in_background(vcg::CallBackPos* callback,
                        const std::function<void(const holefill::Options::Progress&)>& work);
 

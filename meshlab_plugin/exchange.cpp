@@ -24,7 +24,7 @@ Places living_elements(const CMeshO& m) {
     return places;
 }
 
-/* The corners of faces as positions in the ascending list `vertices` of places. */
+/* Corners of faces, as positions in the list `vertices`, which ascends. */
 std::vector<std::array<uint32_t, 3>> corners_of(const CMeshO& m, const std::vector<std::size_t>& faces,
                                                 const std::vector<std::size_t>& vertices) {
     std::vector<uint32_t> index(m.vert.size());
@@ -133,7 +133,7 @@ Places Exchange::append(const std::vector<holefill::Hole>& holes) {
     return added;
 }
 
-/* Rims that are closed are no border any more. */
+/* Clears the border flags along closed rims. */
 void Exchange::update_flags(const NewElements& elements) {
     CMeshO& m = model_.cm;
     const RimEdges rims(mesh_);
@@ -169,7 +169,7 @@ void Exchange::update_flags(const NewElements& elements) {
     }
 }
 
-/* Of new faces, and of the vertices at the rims. New vertices have theirs from the library. */
+/* Sets the normals of new faces and of the vertices at closed rims. New vertices have normals from the library. */
 void Exchange::update_normals(const Places& added) {
     CMeshO& m = model_.cm;
     std::vector<bool> is_at_rim(m.vert.size());
@@ -182,7 +182,7 @@ void Exchange::update_normals(const Places& added) {
     for (const std::size_t vertex : added.vertices) {
         is_at_rim[vertex] = false;
     }
-    // As the host weights them, by angle, but on the side on which they were: meshes may have their normals turned round.
+    // Weighted by angle, as the host does. The side stays: a mesh may have normals opposite to its orientation.
     std::vector<Point3m> sums(m.vert.size(), Point3m(0, 0, 0));
     for (const CFaceO& face : m.face) {
         if (face.IsD()) {

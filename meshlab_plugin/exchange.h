@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/* A mesh of the host, and the same mesh in the library. */
+/* Copies meshes between the host and the library. */
 #ifndef HOLEFILL_MESHLAB_EXCHANGE_H
 #define HOLEFILL_MESHLAB_EXCHANGE_H
 
@@ -15,29 +15,29 @@
 #include <memory>
 #include <vector>
 
-/* Copies a mesh into the library, and what was filled there back.
+/* Copies a mesh to the library, and copies the patches back.
  *
- * Deleted elements, which the host leaves in its lists, do not exist for the library: its indices are those of the
- * living ones, in their order. The host's mesh changes in `append` and nowhere else. New elements come at its end;
- * existing ones keep their place and their values, but for what follows from the faces: the normals of vertices at
- * the rims, and their border flags. The host's topology is dropped. */
+ * The host leaves deleted elements in its lists. The library gets only the other elements, in their order, so its
+ * indices differ from those of the host. Only `append` changes the host's mesh. It appends new elements at the end.
+ * Existing elements keep their place and their values, except the normals and border flags at closed rims. `append`
+ * drops the host's topology. */
 class Exchange {
 public:
-    /* Throws holefill::Exception for a mesh that the library does not take, such as one with a coordinate that is not a
-     * number. `model` must live longer. */
+    /* Throws holefill::Exception for a mesh that the library rejects, for example because a coordinate is not finite.
+     * `model` must live longer. */
     explicit Exchange(MeshModel& model);
 
     holefill::Mesh& mesh() { return mesh_; }
     const holefill::Mesh& mesh() const { return mesh_; }
 
-    /* Has the values of existing elements continued by what is filled from now on. */
+    /* Makes the patches that are filled from now on continue these values of existing elements. */
     void carry(const Carried& carried) { attributes_ = std::make_unique<Attributes>(model_, mesh_, places_, carried); }
 
     /* Corners of the selected faces. */
     std::vector<std::array<uint32_t, 3>> selected_faces() const;
 
-    /* Appends the patches of `holes`, entries of a report, to the host's mesh. Returns the places of what was appended.
-     * There must have been a `carry`. */
+    /* Appends the patches of `holes`, entries of a report, to the host's mesh. Returns the places of the new elements.
+     * `carry` must have been called before. */
     Places append(const std::vector<holefill::Hole>& holes);
 
     const Places& places() const { return places_; }

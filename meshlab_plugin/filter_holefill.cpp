@@ -17,7 +17,7 @@
 
 namespace {
 
-/* The host knows no other exceptions than its own. */
+/* Turns all exceptions into the host's own: it catches no others. */
 template <class Function>
 auto with_host_errors(Function function) {
     try {
@@ -30,7 +30,7 @@ auto with_host_errors(Function function) {
         }
         QString text = QString::fromStdString(error.what());
         if (error.status() == HOLEFILL_STATUS_NOT_FINITE) {
-            text += ". Positions must be numbers: remove such vertices first";
+            text += ". Coordinates must be finite: remove such vertices first";
         }
         throw MLException(text);
     } catch (const std::bad_alloc&) {
@@ -42,7 +42,7 @@ auto with_host_errors(Function function) {
     }
 }
 
-/* Loops that the faces of a patch close: its own, and those of islands in it. */
+/* The loops that a patch closes: its own, and those of islands in it. */
 std::vector<uint64_t> loops_closed_by(const holefill::Hole& hole, const RimEdges& rims, const holefill::Mesh& mesh) {
     std::vector<uint64_t> loops;
     std::vector<std::array<uint64_t, 3>> triangles = mesh.triangles<uint64_t>(hole.first_triangle);
@@ -58,7 +58,7 @@ std::vector<uint64_t> loops_closed_by(const holefill::Hole& hole, const RimEdges
     return loops;
 }
 
-/* Makes entries of holes whose patch intersects something into ones of holes that stay open. */
+/* Marks the holes whose patch intersects something as holes that stay open. */
 void refuse_intersections(std::vector<holefill::Hole>& holes, const holefill::Mesh& mesh) {
     const RimEdges rims(mesh);
     std::vector<uint64_t> refused;
@@ -75,7 +75,7 @@ void refuse_intersections(std::vector<holefill::Hole>& holes, const holefill::Me
             hole.cause = HOLEFILL_CAUSE_GEOMETRY;
             hole.reason = hole.self_intersections > 0 ? "the patch with the fewest intersections has " +
                                                             std::to_string(hole.self_intersections)
-                                                      : "the patch of the hole round it intersects something";
+                                                      : "the patch of the hole round it has intersections";
             hole.vertex_count = hole.triangle_count = hole.self_intersections = 0;
         }
     }
@@ -121,7 +121,7 @@ void write_mark(MeshModel& model, const Places& added, const FillSettings& setti
     }
 }
 
-/* Leaves these elements selected and no others. */
+/* Selects these elements and no others. */
 void select(CMeshO& m, const Places& places) {
     vcg::tri::UpdateSelection<CMeshO>::VertexClear(m);
     vcg::tri::UpdateSelection<CMeshO>::FaceClear(m);
@@ -133,7 +133,7 @@ void select(CMeshO& m, const Places& places) {
     }
 }
 
-/* Of the data that a fill writes, that which the mesh has. */
+/* The mask of the data that a fill changes in this mesh. */
 unsigned int written_data(const MeshModel& model) {
     const int data = MeshModel::MM_VERTCOLOR | MeshModel::MM_FACECOLOR | MeshModel::MM_VERTQUALITY |
                      MeshModel::MM_FACEQUALITY | MeshModel::MM_VERTTEXCOORD | MeshModel::MM_WEDGTEXCOORD;
@@ -184,20 +184,20 @@ QString FilterHolefill::pythonFilterName(ActionIDType filter) const {
 QString FilterHolefill::filterInfo(ActionIDType filter) const {
     switch (filter) {
     case FILL_HOLES:
-        return "Closes holes by patches that have the density and the curvature of the surface round them. Every patch is "
+        return "Closes holes by patches with the density and the curvature of the surface round them. Every patch is "
                "checked: it is manifold, oriented like the mesh, and tested for intersections with the mesh, with "
-               "itself and with other patches. Existing vertices and faces stay as they are; colors, quality, texture "
-               "coordinates and custom attributes are continued. A hole that cannot be filled stays open, and the log "
-               "says why. Meshes with edges of more than two faces are allowed.<br>See:<br>"
+               "itself and with other patches. Existing vertices and faces stay as they are. The patches continue "
+               "colors, quality, texture coordinates and custom attributes. A hole that cannot be filled stays open, "
+               "and the log says why. Meshes with edges of more than two faces are allowed.<br>See:<br>"
                "<i>Peter Liepa</i><br><b>\"Filling holes in meshes\"</b><br>Symposium on Geometry Processing, 2003.<br>"
                "<i>Mario Botsch, Leif Kobbelt</i><br><b>\"An intuitive framework for real-time freeform modeling\"</b><br>"
                "SIGGRAPH, 2004.";
     case SELECT_RIMS:
-        return "Selects the vertices and faces along the rims of holes, chosen by the same rules as the filter Fill Holes "
-               "(holefill): a way to see what these would fill. Any previous selection is lost.";
+        return "Selects the vertices and faces along the rims of holes. The rules are those of the filter Fill Holes "
+               "(holefill), so this shows which holes it would fill. Any previous selection is lost.";
     case REPORT_HOLES:
         return "Lists the boundary loops of the mesh in the log: edges, perimeter, diameter of the bounding box, planarity "
-               "(0 is planar), what kind of rim it is, and the two vertices of one edge. The mesh stays as it is.";
+               "(0 is planar), kind of rim, and the two vertices of one edge. The mesh stays as it is.";
     default:
         return QString();
     }
@@ -301,7 +301,7 @@ FilterHolefill::Values FilterHolefill::fillHoles(const RichParameterList& parame
     log(failed > 0 ? GLLogStream::WARNING : GLLogStream::FILTER,
         "Closed " + std::to_string(filled) + " of " + std::to_string(holes.size()) + " holes with " +
             std::to_string(added.faces.size()) + " faces and " + std::to_string(added.vertices.size()) + " vertices; " +
-            std::to_string(failed) + " could not be closed, " + std::to_string(kept) + " were not asked for");
+            std::to_string(failed) + " could not be closed, " + std::to_string(kept) + " were not chosen");
     return {{"closed_holes", integer(filled)},
             {"failed_holes", integer(failed)},
             {"kept_holes", integer(kept)},
@@ -312,7 +312,7 @@ FilterHolefill::Values FilterHolefill::fillHoles(const RichParameterList& parame
 
 FilterHolefill::Values FilterHolefill::selectRims(const RichParameterList& parameters, MeshModel& model) const {
     const Exchange exchange(model);
-    const std::vector<uint64_t> chosen = exchange.mesh().select(to_selection(exchange, read_rules(parameters)));
+    const std::vector<uint64_t> chosen = exchange.mesh().find_loops(to_selection(exchange, read_rules(parameters)));
     const RimEdges rims(exchange.mesh());
     const std::vector<std::array<uint32_t, 3>> triangles = exchange.mesh().triangles();
     Places rim;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/* The plugin: three filters of MeshLab that hand their work to holefill through its C interface. */
+/* The plugin: three MeshLab filters that use holefill through its C interface. */
 #ifndef FILTER_HOLEFILL_H
 #define FILTER_HOLEFILL_H
 
@@ -10,7 +10,7 @@
 #include <map>
 #include <string>
 
-/* Names of filters and parameters are what scripts are written with: they must not change. */
+/* Names of filters and parameters must not change: scripts use them. */
 class FilterHolefill : public QObject, public FilterPlugin {
     Q_OBJECT
     MESHLAB_PLUGIN_IID_EXPORTER(FILTER_PLUGIN_IID)

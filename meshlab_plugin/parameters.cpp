@@ -23,7 +23,7 @@ QStringList methods() {
     return names;
 }
 
-/* What the methods do, a line for each. */
+/* One line for each method. */
 QString method_summaries() {
     QString text = "How holes are filled. If a patch fails a check, the next simpler method is tried.<br>";
     for (uint64_t i = 0; i < holefill_method_count(); ++i) {
@@ -32,7 +32,7 @@ QString method_summaries() {
     return text;
 }
 
-/* The default of a parameter of the library. */
+/* The default of a parameter of the library, as a number. */
 double default_number(const char* name) {
     for (uint64_t i = 0; i < holefill_parameter_count(); ++i) {
         if (std::strcmp(holefill_parameter_name(i), name) == 0) {
@@ -50,7 +50,7 @@ uint64_t not_negative(const RichParameterList& parameters, const char* name) {
     return static_cast<uint64_t>(value);
 }
 
-/* The number of an entry: a script may give any. */
+/* The number of the chosen entry. A script may pass any number, so it is checked. */
 int entry(const RichParameterList& parameters, const char* name, int count) {
     const int value = parameters.getEnum(name);
     if (value < 0 || value >= count) {
@@ -75,16 +75,16 @@ RichParameterList rule_parameters(const MeshModel& model) {
     const Scalarm diagonal = model.cm.bbox.Diag();
     RichParameterList list;
     list.addParam(RichBool("Selected", model.cm.sfn > 0, "Only holes with selected faces",
-                           "Only holes with at least one selected face along their rim. If no selected face lies at a "
-                           "hole, there are none."));
+                           "Only holes with at least one selected face along their rim. If no hole has one, no hole is "
+                           "chosen."));
     list.addParam(RichInt("MaxHoleSize", 0, "Max edges of a hole",
                           "Holes with more edges along their rim stay open. 0 is no limit."));
     list.addParam(RichPercentage("MaxPerimeter", 0, 0, diagonal, "Max perimeter of a hole",
                                  "Holes with a longer rim stay open. In units of the mesh, or in percent of the diagonal "
                                  "of its bounding box. 0 is no limit."));
     list.addParam(RichInt("KeepLargest", 0, "Keep the largest rims open",
-                          "So many rims of the largest perimeter stay open, whatever else is chosen. 1 spares the outer "
-                          "rim of most open sheets."));
+                          "This number of rims, those of the largest perimeter, stay open, even if other rules choose them. "
+                          "1 keeps the outer rim of most open sheets open."));
     return list;
 }
 
@@ -94,32 +94,32 @@ RichParameterList fill_parameters(const MeshModel& model) {
     list.addParam(RichEnum("Method", names.indexOf("auto"), names, "Method", method_summaries()));
     list.join(rule_parameters(model));
     list.addParam(RichFloat("Density", static_cast<Scalarm>(default_number("refine.density")), "Edge length of the patch",
-                            "Edge length of the new faces over that of the rim. 2 gives about a quarter of the faces."));
+                            "Edge length of the new faces, in edge lengths of the rim. 2 gives about a quarter of the faces."));
     list.addParam(RichBool("RefuseSelfIntersection", false, "Refuse self-intersecting patches",
-                           "A hole for which no method has a patch without intersections stays open. Otherwise the patch "
-                           "with the fewest is used, and the log says so."));
+                           "If the patches of all methods intersect something, the hole stays open. Off: the patch with the "
+                           "fewest intersections is used, and the log says so."));
     list.addParam(RichBool("NewFaceSelected", true, "Select the new faces and vertices",
-                           "What was added is left selected, for instance to be smoothed; any previous selection is lost. "
-                           "Otherwise the selection stays as it is."));
+                           "Selects the new elements, for example to smooth them. Any previous selection is lost. Off: the "
+                           "selection stays as it is."));
     list.addParam(RichBool("CarryColor", true, "Continue colors",
-                           "New vertices and faces get colors from round the hole. Otherwise they are white."));
+                           "New vertices and faces get colors from the surface round the hole. Off: they are white."));
     list.addParam(RichBool("CarryQuality", true, "Continue quality and radius",
-                           "New vertices and faces get values from round the hole. Otherwise they are 0."));
+                           "New vertices and faces get values from the surface round the hole. Off: they are 0."));
     list.addParam(RichBool("CarryTexture", true, "Continue texture coordinates",
-                           "New vertices and corners get coordinates from round the hole. Otherwise they are 0."));
+                           "New vertices and corners get coordinates from the surface round the hole. Off: they are 0."));
     list.addParam(RichBool("CarryAttributes", true, "Continue custom attributes",
-                           "New vertices and faces get values of all scalar and point attributes from round the hole. "
-                           "Otherwise they are 0."));
+                           "New vertices and faces get values of all scalar and point attributes from the surface round the "
+                           "hole. Off: they are 0."));
     list.addParam(RichEnum("Mark", 0, {"nothing", "quality", "color"}, "Mark the patches",
-                           "Writes the same quality, or the same color, on all new faces and vertices. Existing elements "
-                           "that have none yet get the quality 0, or white."));
+                           "Gives all new faces and vertices the same quality or color. Existing elements without quality or "
+                           "color get 0 or white."));
     list.addParam(RichFloat("MarkQuality", 1, "Quality of the mark", "Written if patches are marked by quality."));
     list.addParam(RichColor("MarkColor", QColor(255, 170, 0), "Color of the mark", "Written if patches are marked by color."));
-    list.addParam(RichInt("Seed", 0, "Seed", "Of the methods that use random numbers: the same seed gives the same patch.", true));
+    list.addParam(RichInt("Seed", 0, "Seed", "For methods that use random numbers. The same seed gives the same patch.", true));
     list.addParam(RichFloat("TimeBudget", 0, "Time budget",
-                            "Seconds that filling may take. Holes that are not done by then stay open. 0 is no limit.", true));
+                            "Seconds. Holes that are not finished by then stay open. 0 is no limit.", true));
     list.addParam(RichString("Parameters", "", "More parameters",
-                             "Parameters of holefill as name=value, separated by spaces, for instance "
+                             "Parameters of holefill as name=value, separated by spaces, for example "
                              "<i>auto.creases=false attributes.interpolator=nearest</i>.",
                              true));
     return list;

@@ -10,7 +10,7 @@
 
 #include <holefill.hpp>
 
-/* What is written on new elements to tell them from the others. */
+/* The value that marks new elements. */
 enum class Mark { Nothing, Quality, Color };
 
 struct FillSettings {
@@ -24,11 +24,11 @@ struct FillSettings {
     vcg::Color4b color;
 };
 
-/* What the host shows for a mesh. */
+/* The parameters that the host shows for a mesh. */
 RichParameterList rule_parameters(const MeshModel& model);
 RichParameterList fill_parameters(const MeshModel& model);
 
-/* The values that the user chose. Throw MLException for those that are not allowed. */
+/* The values that the user chose. Throw MLException for values that are not allowed. */
 Rules read_rules(const RichParameterList& parameters);
 FillSettings read_settings(const RichParameterList& parameters);
 

@@ -40,18 +40,18 @@ std::vector<Line> describe(const HolefillDefects& defects) {
     std::vector<Line> lines;
     if (defects.nonmanifold_edges > 0) {
         lines.push_back({true, count(defects.nonmanifold_edges, "edge has", "edges have") +
-                                   " more than two faces: holes that run into them stay open"});
+                                   " more than two faces: holes that run into such an edge stay open"});
     }
     if (defects.inconsistent_edges > 0) {
         lines.push_back({true, count(defects.inconsistent_edges, "edge lies", "edges lie") +
-                                   " between faces that are oriented differently: holes along which the orientation "
-                                   "changes stay open"});
+                                   " between faces of different orientation: a hole stays open if the orientation "
+                                   "changes along its rim"});
     }
     if (defects.degenerate_triangles > 0) {
-        lines.push_back({true, count(defects.degenerate_triangles, "face names", "faces name") + " a vertex twice"});
+        lines.push_back({true, count(defects.degenerate_triangles, "face uses", "faces use") + " a vertex twice"});
     }
     if (defects.duplicate_triangles > 0) {
-        lines.push_back({true, count(defects.duplicate_triangles, "face is", "faces are") + " there more than once"});
+        lines.push_back({true, count(defects.duplicate_triangles, "face occurs", "faces occur") + " more than once"});
     }
     return lines;
 }
@@ -72,7 +72,7 @@ Line describe(const holefill::Hole& hole) {
         }
         break;
     case HOLEFILL_HOLE_KEPT:
-        line.text += "not asked for";
+        line.text += "not chosen";
         break;
     default:
         line.is_warning = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/* What is said about holes: lines for the host's log. */
+/* Describes holes, in lines for the host's log. */
 #ifndef HOLEFILL_MESHLAB_REPORT_H
 #define HOLEFILL_MESHLAB_REPORT_H
 
@@ -14,10 +14,10 @@ struct Line {
     std::string text;
 };
 
-/* What is irregular in a mesh, and what it means for its holes; nothing for a regular one. */
+/* The defects of a mesh, and what they mean for its holes. Empty for a mesh without defects. */
 std::vector<Line> describe(const HolefillDefects& defects);
 
-/* What became of a hole, and why. */
+/* The result for a hole, and its reason. */
 Line describe(const holefill::Hole& hole);
 
 /* A row of the table of holes, and its head. */

@@ -24,7 +24,7 @@ holefill::Selection to_selection(const Exchange& exchange, const Rules& rules) {
             }
         }
     }
-    // Those to keep are named, and not those to fill: an empty list of these would be all.
+    // Lists the loops to keep, not the loops to fill: an empty list of loops to fill means all loops.
     for (const HolefillLoopInfo& loop : exchange.mesh().loops()) {
         if (!is_touched[static_cast<std::size_t>(loop.loop_id)]) {
             selection.keep.push_back({loop.edge[0], loop.edge[1]});

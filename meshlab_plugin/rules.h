@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/* Which holes are meant. */
+/* Rules that choose holes. */
 #ifndef HOLEFILL_MESHLAB_RULES_H
 #define HOLEFILL_MESHLAB_RULES_H
 
@@ -18,7 +18,7 @@ struct Rules {
     uint64_t keep_largest = 0;
 };
 
-/* The rules as the library takes them. */
+/* The rules as a selection of the library. */
 holefill::Selection to_selection(const Exchange& exchange, const Rules& rules);
 
 #endif

@@ -27,6 +27,7 @@ mod fill;
 #[cfg(test)]
 #[path = "../tests/common/meshes.rs"]
 mod fixtures;
+mod hole;
 #[cfg(feature = "io")]
 pub mod io;
 mod job;
@@ -41,13 +42,13 @@ mod refine;
 mod surroundings;
 mod triangulate;
 
-pub use boundary::classify::LoopClass;
-pub use boundary::loops::{BoundaryLoop, BoundaryLoops};
+pub use boundary::boundary_loop::{BoundaryLoop, LoopClass};
+pub use boundary::loops::BoundaryLoops;
 pub use boundary::select::Selection;
 pub use error::{Error, ErrorKind, Result};
-pub use fill::pipeline::fill_holes;
 pub use fill::progress::{Progress, ProgressCallback};
 pub use fill::report::{Attempt, FillReport, HoleReport, HoleStatus};
+pub use fill::session::at_once::fill_holes;
 pub use fill::session::{FillPlan, FillSession, PlannedPatch, Target};
 pub use mesh::attributes::{
     Attribute, AttributeValues, Attributes, ListValues, ScalarType, ScalarValues,

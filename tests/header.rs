@@ -22,33 +22,6 @@ const PARTS: [&str; 12] = [
     "report",
 ];
 
-/// All files of the interface: each uses only files that stand before it.
-const LAYERS: [&str; 23] = [
-    "status",
-    "types",
-    "failure",
-    "handles",
-    "shared",
-    "objects",
-    "guard",
-    "rows",
-    "input",
-    "output",
-    "text",
-    "structs",
-    "version",
-    "error",
-    "callbacks",
-    "options",
-    "attributes",
-    "mesh",
-    "points",
-    "loops",
-    "fill",
-    "plan",
-    "report",
-];
-
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -308,30 +281,4 @@ fn every_exported_function_is_guarded() {
         }
     }
     assert_eq!(count, declared().len());
-}
-
-#[test]
-fn the_files_of_the_interface_lie_in_layers() {
-    let mut files: Vec<String> = fs::read_dir(root().join("src/ffi"))
-        .unwrap()
-        .filter_map(|entry| entry.unwrap().file_name().into_string().ok())
-        .filter_map(|name| Some(name.strip_suffix(".rs")?.to_owned()))
-        .filter(|name| name != "mod")
-        .collect();
-    files.sort();
-    let mut known = LAYERS.to_vec();
-    known.sort_unstable();
-    assert_eq!(files, known);
-    for (level, layer) in LAYERS.iter().enumerate() {
-        let source = fs::read_to_string(root().join(format!("src/ffi/{layer}.rs"))).unwrap();
-        for path in source.split("super::").skip(1) {
-            let is_word = |c: char| c.is_ascii_lowercase() || c == '_';
-            let used = &path[..path.find(|c| !is_word(c)).unwrap_or(path.len())];
-            let above = LAYERS.iter().position(|l| *l == used);
-            assert!(
-                above.is_none_or(|above| above < level),
-                "{layer} uses {used}"
-            );
-        }
-    }
 }

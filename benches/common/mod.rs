@@ -1,4 +1,4 @@
-//! What the benchmarks share.
+//! Code that the benchmarks share.
 #![allow(dead_code, reason = "each benchmark uses a part of it")]
 
 #[path = "../../tests/common/meshes.rs"]
@@ -18,7 +18,7 @@ pub(crate) fn sheet(size: usize, hole: Range<usize>) -> TriMesh {
     TriMesh::new(sheet.positions, sheet.triangles).expect("the mesh is valid")
 }
 
-/// One hole of a mesh, with everything done that is done once for a mesh.
+/// One hole of a mesh, after the work that is done once per mesh.
 pub(crate) struct Hole {
     session: FillSession,
     id: usize,
@@ -35,7 +35,7 @@ impl Hole {
         Self { session, id }
     }
 
-    /// Fills the hole by `method` on one thread, and takes the patch away again.
+    /// Fills the hole by `method` on one thread, and removes the patch again.
     pub(crate) fn fill_and_undo(&mut self, method: Method) {
         let mut options = FillOptions::default();
         options.method = method;

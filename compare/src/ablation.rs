@@ -1,4 +1,4 @@
-//! What each stage of `auto` is worth: the same cases with one stage off at a time, with each candidate surface
+//! The effect of each stage of `auto`. Fills the same cases with one stage off at a time, with each candidate surface
 //! prescribed, and by CGAL at second-order continuity, in one run.
 
 use std::fmt::Write as _;
@@ -10,10 +10,10 @@ use crate::job::{Job, jobs, read_json};
 use crate::table::geometric_mean;
 use crate::{Result, judge, process};
 
-/// Deviations below this share of the hole's size count as this: there the triangles of the files decide.
+/// Smallest deviation that counts, as a share of the size of the hole: below it, the triangles of the files dominate.
 const LEAST_DEVIATION: f64 = 1e-4;
 
-/// Stages to switch off: what the table calls it, and the options.
+/// Stages to switch off: the name in the table, and the options.
 const STAGES: [(&str, &[&str]); 6] = [
     ("without jets: normals of triangles", &["auto.jets=off"]),
     (
@@ -44,7 +44,7 @@ const CANDIDATES: [&str; 11] = [
     "rbf5",
 ];
 
-/// What to run; see the command line's help.
+/// The settings of a run; see the help of the command line.
 pub(crate) struct Settings {
     pub(crate) cases: PathBuf,
     pub(crate) holefill: PathBuf,
@@ -62,7 +62,7 @@ struct Figure {
     seconds: f64,
 }
 
-/// One way to fill, on all cases; none where it gave nothing.
+/// One way to fill, on all cases; `None` where it gave no result.
 struct Way {
     title: String,
     figures: Vec<Option<Figure>>,
@@ -197,7 +197,7 @@ fn stages(jobs: &[Job], whole: &Way, ways: &[Way]) -> String {
     text
 }
 
-/// The best candidate of each case beside the choice that was made.
+/// Compares the best candidate of each case with the choice of `auto`.
 fn oracle(jobs: &[Job], whole: &Way, candidates: &[Way]) -> String {
     let mut text = String::from(
         "\n| case | chosen | best candidate | | ratio |\n| --- | ---: | ---: | --- | ---: |\n",

@@ -1,9 +1,9 @@
 //! Two-way RMS distance between a patch and the surface that was removed.
 //!
-//! Both surfaces are sampled evenly by area; each sample looks for the nearest point of the other
-//! surface in a bounding volume hierarchy. The mean of both squared distances, its root taken over
-//! the mean bounding box diagonal of the removed pieces, is the figure. It is written apart from
-//! the library's own measure on purpose: the judge shares no code with what it judges.
+//! Both surfaces are sampled evenly by area. A bounding volume hierarchy finds the nearest point of the
+//! other surface for each sample. The figure is the root of the mean of both squared distances, over
+//! the mean bounding box diagonal of the removed pieces. This code is independent of the library's own
+//! measure, so that the judge shares no code with what it judges.
 
 use crate::ply::Mesh;
 
@@ -50,8 +50,8 @@ fn segment_distance_sq(p: Point, a: Point, b: Point) -> f64 {
     dot(d, d)
 }
 
-/// Squared distance of a point to a triangle: to its plane where the foot falls inside, else to
-/// the nearest side. Flat triangles count as their sides.
+/// Squared distance of a point to a triangle: to its plane if the perpendicular foot is inside, and
+/// otherwise to the nearest side. For triangles without area, only the sides count.
 fn triangle_distance_sq(p: Point, corners: &[Point; 3]) -> f64 {
     let [a, b, c] = *corners;
     let (u, v, w) = (sub(b, a), sub(c, a), sub(p, a));
@@ -222,7 +222,7 @@ fn root(parent: &mut [u32], mut v: u32) -> u32 {
     v
 }
 
-/// Mean bounding box diagonal of the pieces; triangles that share an edge are of one piece.
+/// Mean bounding box diagonal of the pieces. Triangles with a common edge belong to one piece.
 fn mean_piece_diagonal(mesh: &Mesh) -> f64 {
     let mut edges: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * mesh.triangles.len());
     for (face, &[a, b, c]) in mesh.triangles.iter().enumerate() {
@@ -247,7 +247,7 @@ fn mean_piece_diagonal(mesh: &Mesh) -> f64 {
     diagonals.iter().sum::<f64>() / diagonals.len() as f64
 }
 
-/// The figure of this module; none when a surface has no area.
+/// The figure of this module; `None` if a surface has no area.
 pub(crate) fn symmetric_rms(patch: &Mesh, truth: &Mesh) -> Option<f64> {
     let n = (SAMPLES_PER_TRIANGLE * truth.triangles.len()).clamp(MIN_SAMPLES, MAX_SAMPLES);
     let (patch, truth_corners) = (corners(patch), corners(truth));

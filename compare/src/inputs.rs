@@ -9,7 +9,7 @@ use serde_json::json;
 use crate::Result;
 use crate::ply::{self, Mesh};
 
-/// A mesh, the loop of it that stays open, and the holes that it has besides.
+/// A mesh, the loop that stays open, and the other holes.
 pub(crate) struct Input {
     pub(crate) name: &'static str,
     pub(crate) mesh: Mesh,
@@ -57,7 +57,7 @@ fn write(dir: &Path, input: Input) -> Result<()> {
     Ok(())
 }
 
-/// The mesh without the vertices that no triangle uses; the order of the others stays.
+/// The mesh without unused vertices. The others keep their order.
 fn compact(points: Vec<[f64; 3]>, mut triangles: Vec<[u32; 3]>) -> Mesh {
     let mut index = vec![u32::MAX; points.len()];
     for &v in triangles.iter().flatten() {
@@ -94,19 +94,19 @@ fn lattice_distance(a: (usize, usize), b: (usize, usize)) -> usize {
 
 /// Whether a triangle of the lattice lies in the hexagon of that many steps, whose rim has six
 /// times as many edges.
-fn in_hexagon(corners: &[(usize, usize); 3], centre: (usize, usize), steps: usize) -> bool {
+fn in_hexagon(corners: &[(usize, usize); 3], center: (usize, usize), steps: usize) -> bool {
     corners
         .iter()
-        .all(|&corner| lattice_distance(corner, centre) <= steps)
+        .all(|&corner| lattice_distance(corner, center) <= steps)
 }
 
-/// A closed bumpy sphere of `2 n^2` triangles less `holes` hexagons of 36 edges: a square grid
-/// folded up as an octahedron, opposite halves of each side glued.
+/// A closed bumpy sphere of `2 n^2` triangles without `holes` hexagons of 36 edges. It is a square grid,
+/// folded to an octahedron, with opposite halves of each side joined.
 fn many_holes(name: &'static str, n: usize, holes: usize) -> Input {
     const STEPS: usize = 6;
     let side = (holes as f64).sqrt().ceil() as usize;
     let spacing = n as f64 / side as f64;
-    let centre_of = |k: usize| (((k as f64) + 0.5) * spacing) as usize;
+    let center_of = |k: usize| (((k as f64) + 0.5) * spacing) as usize;
     let vertex = |(i, j): (usize, usize)| {
         let (i, j) = if j == 0 || j == n {
             (i.min(n - i), j)
@@ -134,8 +134,8 @@ fn many_holes(name: &'static str, n: usize, holes: usize) -> Input {
         let (i, j) = corners[0];
         let (column, row) = ((i as f64 / spacing) as usize, (j as f64 / spacing) as usize);
         let index = row.min(side - 1) * side + column.min(side - 1);
-        let centre = (centre_of(index % side), centre_of(index / side));
-        index < holes && in_hexagon(corners, centre, STEPS)
+        let center = (center_of(index % side), center_of(index / side));
+        index < holes && in_hexagon(corners, center, STEPS)
     };
     let triangles = cells
         .flat_map(|(i, j)| cell(i, j))
@@ -239,14 +239,14 @@ fn rim(name: &'static str, edges: usize) -> Input {
     }
 }
 
-/// A wavy sheet of `2 n^2` triangles with a hole of 60 edges in its middle. Positions are measured
-/// from the hole, so that its neighbourhood has the same bits for every `n`.
+/// A wavy sheet of `2 n^2` triangles with a hole of 60 edges in its middle. Positions are relative to
+/// the hole, so that its neighborhood has the same bits for every `n`.
 fn sheet(name: &'static str, n: usize) -> Input {
     const STEPS: usize = 10;
-    let centre = (n / 2, n / 2);
+    let center = (n / 2, n / 2);
     let vertex = |(i, j): (usize, usize)| (j * (n + 1) + i) as u32;
     let point = |i: usize, j: usize| {
-        let (x, y) = (i as f64 - centre.0 as f64, j as f64 - centre.1 as f64);
+        let (x, y) = (i as f64 - center.0 as f64, j as f64 - center.1 as f64);
         [x, y, 2.0 * (TAU * x / 40.0).sin() * (PI * y / 25.0).cos()]
     };
     let points = (0..=n)
@@ -255,7 +255,7 @@ fn sheet(name: &'static str, n: usize) -> Input {
     let triangles = (0..n)
         .flat_map(|j| (0..n).map(move |i| (i, j)))
         .flat_map(|(i, j)| cell(i, j))
-        .filter(|corners| !in_hexagon(corners, centre, STEPS))
+        .filter(|corners| !in_hexagon(corners, center, STEPS))
         .map(|corners| corners.map(vertex))
         .collect();
     let mesh = compact(points, triangles);
@@ -272,7 +272,7 @@ fn sheet(name: &'static str, n: usize) -> Input {
 mod tests {
     use super::*;
 
-    /// Directed edges without a partner, as loops of vertices; fails on a non-manifold mesh.
+    /// Boundary edges as loops of vertices. Fails on a non-manifold mesh.
     fn boundary_loops(mesh: &Mesh) -> Vec<Vec<u32>> {
         let mut edges: Vec<[u32; 2]> = mesh
             .triangles
@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rim_lies_on_the_sphere_and_faces_outwards() {
+    fn a_rim_lies_on_the_sphere_and_faces_outward() {
         let input = rim("small", 60);
         check(&input);
         for &[a, b, c] in &input.mesh.triangles {
@@ -375,7 +375,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_hole_has_the_same_neighbourhood_in_sheets_of_any_size() {
+    fn the_same_hole_has_the_same_neighborhood_in_sheets_of_any_size() {
         let (small, large) = (sheet("small", 31), sheet("large", 60));
         check(&small);
         check(&large);

@@ -1,4 +1,4 @@
-//! What there is to fill: one folder each, with `input.ply` and `meta.json`.
+//! Meshes to fill: one folder each, with `input.ply` and `meta.json`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use crate::Result;
 
-/// A folder with an input and what to leave open in it.
+/// A folder with an input, and the loops to leave open in it.
 pub(crate) struct Job {
     pub(crate) name: String,
     pub(crate) folder: PathBuf,

@@ -1,4 +1,4 @@
-//! How far a result is from the surface that was removed.
+//! The distance of a result from the removed surface.
 
 use std::path::Path;
 use std::time::Duration;
@@ -11,17 +11,17 @@ use crate::{Result, deviation, process};
 /// Time that an external scorer may take.
 const SCORER_LIMIT: Duration = Duration::from_secs(600);
 
-/// What is known of a result; the last two come from an external scorer only.
+/// Figures of a result. Only an external scorer gives the last two.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Score {
-    /// Two-way RMS distance over the hole's size; none where there is no truth or no patch.
+    /// Two-way RMS distance over the size of the hole; `None` without truth or without patch.
     pub(crate) sym_rms: Option<f64>,
     pub(crate) ok: Option<bool>,
-    /// Intersecting triangle pairs of the patch, with itself and with the rest.
+    /// Pairs of intersecting triangles, at least one of them in the patch.
     pub(crate) intersections: Option<u64>,
 }
 
-/// The faces that an output has beyond those of its input, which both programs write first.
+/// The new faces of an output. Both programs write the faces of the input first.
 fn patch_of(input: &Mesh, output: Mesh) -> Result<Mesh> {
     if !output.triangles.starts_with(&input.triangles) || !output.points.starts_with(&input.points)
     {

@@ -1,7 +1,7 @@
-//! Measures the `holefill` program side by side with CGAL's hole filling (`cgal_fill`).
+//! Compares the `holefill` program with CGAL's hole filling (`cgal_fill`).
 //!
-//! `inputs` makes the large inputs, `run` measures both programs on them and on a folder of cases, `ablate` measures
-//! what each stage of the method `auto` is worth.
+//! `inputs` makes the large inputs. `run` measures both programs on them and on a folder of cases. `ablate` measures
+//! the effect of each stage of the method `auto`.
 
 mod ablation;
 mod deviation;
@@ -18,7 +18,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 
-/// What can go wrong here: a file, a program, a report that does not have the expected form.
+/// Errors: of a file, of a program, or a report that does not have the expected form.
 type Error = Box<dyn std::error::Error>;
 type Result<T> = std::result::Result<T, Error>;
 
@@ -33,7 +33,7 @@ struct Cli {
 enum Command {
     /// Make the large inputs, one folder each: `DIR/NAME/input.ply` and `meta.json`.
     Inputs {
-        /// Where to write; about 150 MB.
+        /// Folder to write to; about 150 MB.
         dir: PathBuf,
     },
     /// Measure both programs, print the table and check every target.
@@ -47,7 +47,7 @@ struct AblateArgs {
     /// Folder of cases, each with `input.ply`, `truth.ply` and `meta.json`.
     #[arg(long)]
     cases: PathBuf,
-    /// The program built from `compare/CMakeLists.txt`; left out where it is missing.
+    /// The program built from `compare/CMakeLists.txt`; optional.
     #[arg(long, default_value = "compare/build/cgal_fill")]
     cgal: PathBuf,
     /// The holefill program.
@@ -62,7 +62,7 @@ struct AblateArgs {
     /// Only cases whose name contains this text.
     #[arg(long)]
     only: Option<String>,
-    /// Only cases with at most so many rim edges to fill.
+    /// Only cases with at most this many rim edges to fill.
     #[arg(long, default_value_t = 1000)]
     most_edges: u64,
     /// Seconds after which a program is stopped.
@@ -72,7 +72,7 @@ struct AblateArgs {
 
 #[derive(Args)]
 struct RunArgs {
-    /// Folder of cases, each with `input.ply`, `meta.json` and mostly `truth.ply`.
+    /// Folder of cases, each with `input.ply`, `meta.json` and optionally `truth.ply`.
     #[arg(long)]
     cases: Option<PathBuf>,
     /// Folder made by `inputs`.
@@ -96,7 +96,7 @@ struct RunArgs {
     /// Only cases and inputs whose name contains this text.
     #[arg(long)]
     only: Option<String>,
-    /// Runs of each program whose median counts; a fill above one second runs once.
+    /// Runs of each program, of which the median is taken; a fill above one second runs once.
     #[arg(long, default_value_t = 5)]
     repeats: usize,
     /// Seconds of filling after which a program is stopped.

@@ -8,23 +8,23 @@ use crate::job::{Job, jobs, read_json};
 use crate::judge::{self, Score};
 use crate::{Result, process};
 
-/// A fill that takes longer than this runs once: its spread is small beside it.
+/// A fill that takes longer than this runs only once, because its relative spread is small.
 const LONG_FILL_SECONDS: f64 = 1.0;
-/// A clock this much ahead of the processor time tells of other work on the machine.
+/// Clock time over processor time above which other work on the machine is reported.
 const BUSY_RATIO: f64 = 1.25;
 /// Below this many seconds the two clocks are not compared.
 const BUSY_MIN_SECONDS: f64 = 0.02;
-/// Time for all but the fill (reading, building, writing) before a program is stopped.
+/// Time for everything except the fill (reading, building, writing), before a program is stopped.
 const OVERHEAD: Duration = Duration::from_secs(120);
-/// CGAL's program watches the limit itself, by processor time; it is stopped from outside only
-/// when the clock has run this many times as far.
+/// CGAL's program checks the limit itself, by processor time. We stop it only if the clock time exceeds
+/// the limit by this factor.
 const CGAL_CLOCK_FACTOR: f64 = 4.0;
-/// The exact search is asked for up to this rim, the size of the input made for it.
+/// Largest rim for the exact search: the size of the input that is made for it.
 const EXACT_LIMIT: &str = "flat.exact-limit=400";
 /// The input whose connectivity is timed.
 const BUILD_INPUT: &str = "hole_in_4m";
 
-/// What to run on what; see the command line's help.
+/// The settings of a run; see the help of the command line.
 pub(crate) struct Settings {
     pub(crate) cases: Option<PathBuf>,
     pub(crate) inputs: Option<PathBuf>,
@@ -37,12 +37,12 @@ pub(crate) struct Settings {
     pub(crate) limit_seconds: f64,
 }
 
-/// What both programs are asked to do.
+/// The task of both programs.
 #[derive(Clone, Copy, PartialEq)]
 enum Task {
     FairC1,
     FairC2,
-    /// The minimum-weight triangulation by the full dynamic programme.
+    /// The minimum-weight triangulation by the full dynamic program.
     Exact,
 }
 
@@ -71,17 +71,17 @@ impl Program {
     }
 }
 
-/// What one program needed, and how well it did.
+/// Time, memory and result of one program.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Run {
-    /// Median time of the fill alone; the time limit where that was reached.
+    /// Median time of the fill alone; the time limit if it was reached.
     pub(crate) seconds: Option<f64>,
     /// The program was stopped at the limit.
     pub(crate) limited: bool,
     pub(crate) peak_megabytes: Option<f64>,
-    /// Other work kept the processor from this program, so that times by the clock are too long.
+    /// The program had to wait for the processor, so clock times are too long.
     pub(crate) disturbed: bool,
-    /// Why there is no result, or not the whole of it.
+    /// Why there is no result, or only a part of it.
     pub(crate) problem: Option<String>,
     pub(crate) score: Score,
 }
@@ -94,8 +94,8 @@ pub(crate) struct Pair {
 }
 
 impl Pair {
-    /// Our time over CGAL's; an upper bound where CGAL was stopped. None where a time is missing
-    /// or ours is not the time of a whole result.
+    /// Our time over CGAL's; an upper bound where CGAL was stopped. `None` where a time is missing
+    /// or our result is incomplete.
     pub(crate) fn time_ratio(&self) -> Option<f64> {
         if self.ours.limited || self.ours.problem.is_some() {
             return None;
@@ -123,7 +123,7 @@ pub(crate) struct InputRow {
     pub(crate) pair: Pair,
 }
 
-/// Seconds to build the connectivity of the 4,000,000-triangle mesh; ours with the loops listed.
+/// Seconds to build the connectivity of the 4,000,000-triangle mesh; ours include the list of loops.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BuildRow {
     pub(crate) ours: f64,
@@ -243,7 +243,7 @@ impl Settings {
         Ok(run)
     }
 
-    /// Both programs in turns; the median time of each.
+    /// Runs both programs in turns, and takes the median time of each.
     fn pair(&self, job: &Job, task: Task, repeats: usize) -> Result<Pair> {
         eprintln!("{} {}", job.name, task.name());
         let mut times = [Vec::new(), Vec::new()];
@@ -344,7 +344,7 @@ impl Settings {
     }
 }
 
-/// Measures all that the settings name.
+/// Measures everything in the settings.
 pub(crate) fn measure(settings: &Settings) -> Result<Results> {
     fs::create_dir_all(&settings.out)?;
     let only = settings.only.as_deref();

@@ -1,4 +1,4 @@
-//! Binary little endian PLY of triangles: just what the cases and both programs write.
+//! Binary little endian PLY with triangles: only the form that the cases and both programs use.
 
 use std::fmt::Write as _;
 use std::fs;

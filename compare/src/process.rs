@@ -1,4 +1,4 @@
-//! Runs one program to its end, watching its time and its peak memory.
+//! Runs one program to its end, and measures its time and its peak memory.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -8,16 +8,16 @@ use std::time::{Duration, Instant};
 
 use crate::Result;
 
-/// How often the child's peak memory is read: what it still adds in its last moments is missed.
+/// Time between two reads of the child's peak memory. Growth after the last read is missed.
 const POLL: Duration = Duration::from_millis(4);
 
 /// How a program ended.
 #[derive(Debug)]
 pub(crate) struct Outcome {
-    /// Exit status; none when a signal ended it.
+    /// Exit status; `None` if a signal ended the program.
     pub(crate) code: Option<i32>,
     pub(crate) timed_out: bool,
-    /// Largest resident set seen, in kilobytes; none where `/proc` is missing.
+    /// Largest resident set seen, in kilobytes; `None` without `/proc`.
     pub(crate) peak_kilobytes: Option<u64>,
 }
 
@@ -27,7 +27,7 @@ fn peak_kilobytes(pid: u32) -> Option<u64> {
     line.split_whitespace().nth(1)?.parse().ok()
 }
 
-/// `LOG.extension`, whatever dots the name has.
+/// `LOG.extension`; dots in the name stay.
 pub(crate) fn beside(log: &Path, extension: &str) -> PathBuf {
     let mut name = log.as_os_str().to_owned();
     name.push(".");
@@ -35,8 +35,7 @@ pub(crate) fn beside(log: &Path, extension: &str) -> PathBuf {
     name.into()
 }
 
-/// Runs a program with its output in `LOG.out` and its messages in `LOG.err`, and stops it after
-/// `limit`.
+/// Runs a program with its output in `LOG.out` and its messages in `LOG.err`. Stops it after `limit`.
 pub(crate) fn run(command: &[String], log: &Path, limit: Duration) -> Result<Outcome> {
     let [program, args @ ..] = command else {
         return Err("no program to run".into());

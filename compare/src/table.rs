@@ -4,17 +4,17 @@ use std::fmt::Write as _;
 
 use crate::measure::{CaseRow, InputRow, Pair, Results, Run};
 
-/// Deviations below this share of the hole's size are rounding: a flat hole filled flat.
+/// Deviations below this share of the size of the hole are rounding, as in a flat hole with a flat patch.
 const EXACT_DEVIATION: f64 = 1e-9;
 
-/// One target, what was measured for it, and whether it is met; none where it was not measured.
+/// One target, its measured figure, and whether it is met; `None` where it was not measured.
 pub(crate) struct Verdict {
     pub(crate) target: &'static str,
     pub(crate) figure: String,
     pub(crate) met: Option<bool>,
 }
 
-/// None of no values.
+/// `None` if there are no values.
 pub(crate) fn geometric_mean(values: &[f64]) -> Option<f64> {
     let sum: f64 = values.iter().map(|v| v.ln()).sum();
     (!values.is_empty()).then(|| (sum / values.len() as f64).exp())
@@ -25,7 +25,7 @@ fn deviation_ratio(pair: &Pair) -> Option<f64> {
     Some(ours.max(EXACT_DEVIATION) / cgal.max(EXACT_DEVIATION))
 }
 
-/// The geometric mean of a figure over all of the cases; a case without the figure fails it.
+/// The geometric mean of a figure over all cases. A case without the figure fails the target.
 fn mean_verdict<'a>(
     target: &'static str,
     limit: f64,
@@ -199,7 +199,7 @@ pub(crate) fn verdicts(results: &Results) -> Vec<Verdict> {
             Some(500.0),
         ),
         ratio_verdict(
-            "full dynamic programme, 400 edges ≤ 1/5",
+            "full dynamic program, 400 edges ≤ 1/5",
             results,
             "rim_400",
             0.2,
@@ -240,7 +240,7 @@ fn intersections(pair: &Pair) -> String {
     format!("{} / {}", shown(&pair.ours), shown(&pair.cgal))
 }
 
-/// What went wrong with either program, with the judge's word on the result.
+/// The problems of both programs, and whether the scorer accepts the result.
 fn remarks(name: &str, pair: &Pair, out: &mut String) {
     for (program, run) in [("holefill", &pair.ours), ("CGAL", &pair.cgal)] {
         if let Some(problem) = &run.problem {

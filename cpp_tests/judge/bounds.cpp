@@ -12,12 +12,12 @@ namespace judge {
 
 namespace {
 
-// What is written is so many times what was measured, but at least so much: where two triangulations are as good as each
-// other, rounding chooses.
+// A bound is ROOM times the measured distance, and at least LEAST: where two triangulations are equally good, rounding
+// chooses.
 constexpr double ROOM = 2.0, LEAST = 0.02;
-// Methods whose patches are to be like CGAL's. The others go their own ways, and have one bound for all cases.
+// Methods whose patches must be similar to CGAL's. The others have one bound for all cases.
 constexpr const char* LIKE_CGAL[] = {"fair-c1", "fair-c2"};
-// Stands for every case that is not listed.
+// Means every case that is not listed.
 constexpr const char* ANY = "*";
 
 }  // namespace
@@ -53,8 +53,8 @@ void Bounds::write(const std::string& folder) const {
     if (folder.empty()) return;
     std::ofstream file(folder + "/distances.txt");
     file << "# Largest distance between our patch and CGAL's, both ways, over the diameter of the largest hole: bounds.\n"
-            "# Made by `judge cases --output FOLDER`: twice what was measured, in two digits rounded up, and at least 0.02. The\n"
-            "# methods that CGAL has nothing like have one bound for all cases.\n";
+            "# Made by `judge cases --output FOLDER`: twice the measured distance, rounded up to two digits, and at least 0.02.\n"
+            "# Methods without a counterpart in CGAL have one bound for all cases.\n";
     for (const auto& [key, bound] : bounds_)
         if (key.first == ANY) file << ANY << " " << key.second << " " << bound << "\n";
     for (const auto& [key, distance] : measured_) {

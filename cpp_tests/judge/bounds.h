@@ -1,4 +1,4 @@
-// How far our patch and CGAL's may be apart, by case and method: distances.txt.
+// Largest allowed distance between our patch and CGAL's, by case and method: distances.txt.
 #ifndef HOLEFILL_JUDGE_BOUNDS_H
 #define HOLEFILL_JUDGE_BOUNDS_H
 
@@ -10,13 +10,13 @@ namespace judge {
 
 class Bounds {
 public:
-    // Lines of case, method and bound. No file when `path` is empty: nothing is bounded then.
+    // Lines of case, method and bound. If `path` is empty, there are no bounds.
     explicit Bounds(const std::string& path);
 
-    // What is wrong with this distance; empty when it is within its bound. Negative: there is none.
+    // What is wrong with this distance; empty if it is within its bound. A negative distance means that there is none.
     std::string check(const std::string& name, const std::string& method, double distance);
 
-    // Writes bounds for what was measured to distances.txt in `folder`; nothing when that is empty.
+    // Writes bounds for the measured distances to distances.txt in `folder`. Does nothing if `folder` is empty.
     void write(const std::string& folder) const;
 
 private:

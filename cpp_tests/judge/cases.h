@@ -1,4 +1,4 @@
-// The cases: real and published models where they are at hand, and meshes made in code, always.
+// The cases: real and published models if they are available, and meshes made in code.
 #ifndef HOLEFILL_JUDGE_CASES_H
 #define HOLEFILL_JUDGE_CASES_H
 
@@ -11,8 +11,8 @@ namespace judge {
 // Surfaces with known holes: the same in every run.
 std::vector<Case> generated_cases();
 
-// The cases below `folder`, by name: each is a folder with `input.ply`, `meta.json` and perhaps `truth.ply`.
-// Empty when there is no such folder.
+// The cases below `folder`, by name. Each is a folder with `input.ply`, `meta.json` and optionally `truth.ply`.
+// Empty if there is no such folder.
 std::vector<std::string> public_case_names(const std::string& folder);
 Case read_public_case(const std::string& folder, const std::string& name);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Distances between surfaces by CGAL's tree of boxes.
+// Distances between surfaces, by CGAL's tree of boxes.
 
 #include "cgal_mesh.h"
 #include "peers.h"
@@ -26,7 +26,7 @@ std::pair<double, double> one_way(const Arrays& from, const Tree& tree) {
     for (const Triangle& t : from.triangles) {
         const Point &a = from.points[t[0]], &b = from.points[t[1]], &c = from.points[t[2]];
         const double weight = norm(area_vector(a, b, c));
-        // Corners, middles of the sides, and the middle: exact for polynomials of degree three.
+        // Samples: corners, midpoints of sides, and centroid. This is exact for polynomials of degree three.
         const std::pair<Point, double> samples[] = {
             {a, 0.05}, {b, 0.05}, {c, 0.05}, {0.5 * (a + b), 2.0 / 15.0}, {0.5 * (b + c), 2.0 / 15.0},
             {0.5 * (c + a), 2.0 / 15.0}, {(1.0 / 3.0) * (a + b + c), 0.45}};

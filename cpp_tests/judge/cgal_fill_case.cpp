@@ -23,7 +23,7 @@ namespace {
 bool fill_hole(CgalMesh& mesh, CgalMesh::Halfedge_index border, int continuity) {
     std::vector<CgalMesh::Face_index> faces;
     std::vector<CgalMesh::Vertex_index> vertices;
-    // Every option is set: the default of the planar search is not the one that is documented.
+    // Every option is set, because the default of the planar search differs from its documentation.
     const auto options = CGAL::parameters::use_delaunay_triangulation(true)
                              .use_2d_constrained_delaunay_triangulation(false)
                              .do_not_use_cubic_algorithm(false);
@@ -74,7 +74,7 @@ PeerFill fill_by_cgal(const Case& c, int continuity) {
         try {
             out.filled += fill_hole(mesh, cycle, continuity);
         } catch (const std::exception&) {
-            // An assertion of CGAL: the hole counts as not filled.
+            // An assertion of CGAL failed: the hole counts as not filled.
         }
     }
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// CGAL's predicates on a filled mesh.
+// Checks a filled mesh with CGAL's predicates.
 
 #include "cgal_mesh.h"
 #include "judges.h"
@@ -22,12 +22,12 @@ namespace judge {
 
 namespace {
 
-// A triangle whose longest edge is so many times its shortest is a needle.
+// A triangle is a needle if its longest edge is at least this many times its shortest.
 constexpr double NEEDLE_RATIO = 20.0;
 
-// Whether two triangles intersect in more than the corners at the same places. CGAL's predicate for faces knows common
-// corners by their vertices only, so where a surface touches itself in two vertices at one place it counts all pairs of
-// faces there.
+// Whether two triangles intersect in more than corners at the same place. CGAL's predicate for faces recognizes common
+// corners only by their vertices. So where a surface touches itself in two vertices at one place, it counts all pairs
+// of faces there.
 bool intersect_beside_common_places(const CgalMesh& mesh, CgalMesh::Face_index f, CgalMesh::Face_index g) {
     using Corners = std::array<Kernel::Point_3, 3>;
     const auto corners_of = [&](CgalMesh::Face_index face) {
@@ -35,7 +35,7 @@ bool intersect_beside_common_places(const CgalMesh& mesh, CgalMesh::Face_index f
         return Corners{mesh.point(mesh.source(h)), mesh.point(mesh.target(h)), mesh.point(mesh.target(mesh.next(h)))};
     };
     Corners a = corners_of(f), b = corners_of(g);
-    // The common ones come first, in the same order.
+    // Common corners come first, in the same order.
     std::size_t common = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const auto same = std::find(b.begin() + static_cast<std::ptrdiff_t>(common), b.end(), a[i]);
@@ -72,8 +72,8 @@ std::size_t count_intersections(const Fill& fill, const CgalMesh& mesh, const Fa
     }));
 }
 
-// Six times the volume of the cone over the triangles with its tip in the middle of the vertices: below zero where an open
-// mesh is turned inside out.
+// Six times the volume of the cone over the triangles, with its tip in the middle of the vertices. It is negative if an
+// open mesh is inside out.
 double lean(const Arrays& mesh) {
     Point middle{};
     for (const Point& p : mesh.points) middle = middle + (1.0 / static_cast<double>(mesh.points.size())) * p;
@@ -83,8 +83,8 @@ double lean(const Arrays& mesh) {
     return sum;
 }
 
-// New triangles without area, and needles. Where the shortest edge of a needle joins two vertices of the input, the rim
-// forces it.
+// New triangles without area, and needles. If the shortest edge of a needle joins two vertices of the input, the rim
+// forces the needle.
 std::pair<std::size_t, std::size_t> count_bad_shapes(const Fill& fill, const CgalMesh& mesh, const Faces& face_of) {
     const std::size_t old_vertices = fill.of->input.points.size();
     std::size_t degenerate = 0, needles = 0;

@@ -19,11 +19,11 @@ using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 inline Kernel::Point_3 to_cgal(const Point& p) { return {p[0], p[1], p[2]}; }
 inline Point from_cgal(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
-// The face of each triangle, where there is one.
+// The face of each triangle, if there is one.
 using Faces = std::vector<CgalMesh::Face_index>;
 
-// Adds the triangles to an empty mesh. A triangle that is refused is tried again when others are in, so faces need not
-// have the order of the triangles. Those that are refused for good have the null face.
+// Adds the triangles to an empty mesh. A rejected triangle is tried again after others, so the order of the faces may
+// differ from that of the triangles. Triangles that cannot be added have the null face.
 inline Faces build(const Arrays& arrays, CgalMesh& mesh) {
     for (const Point& p : arrays.points) mesh.add_vertex(to_cgal(p));
     Faces faces(arrays.triangles.size(), CgalMesh::null_face());

@@ -17,7 +17,7 @@ std::vector<Triangle> search_by_cgal(const Loop& loop) {
     for (const Point& p : loop.points) points.push_back(to_cgal(p));
     for (const Point& p : loop.apexes) apexes.push_back(to_cgal(p));
     std::vector<CGAL::Triple<int, int, int>> found;
-    // Every option is set: the default of the planar search is not the one that is documented.
+    // Every option is set, because the default of the planar search differs from its documentation.
     CGAL::Polygon_mesh_processing::triangulate_hole_polyline(
         points, apexes, std::back_inserter(found),
         CGAL::parameters::use_delaunay_triangulation(false)

@@ -1,4 +1,4 @@
-// What the program does, by its first argument.
+// The commands of the program: its first argument.
 #ifndef HOLEFILL_JUDGE_COMMANDS_H
 #define HOLEFILL_JUDGE_COMMANDS_H
 
@@ -12,19 +12,19 @@ struct Arguments {
     std::string exceptions;
     // Only cases whose name contains this.
     std::string only;
-    // Bounds for distances to CGAL's patches; not bounded when empty.
+    // File of bounds for distances to CGAL's patches; no bounds if empty.
     std::string bounds;
     // The meshes of CGAL's tests; need not exist.
     std::string data;
-    // Where tables and pictures go; nowhere when empty.
+    // Folder for tables and pictures; none are written if empty.
     std::string output;
 };
 
-// Each returns whether all is well, and says on the standard output what it did and what is not.
+// Each returns true if there are no objections, and prints its work and its objections on the standard output.
 bool run_cases(const Arguments& arguments);
 bool run_mutations(const Arguments& arguments);
 bool run_inputs(const Arguments& arguments);
-// Puts the tables of the others into one page.
+// Writes the tables of the other commands to one page.
 bool run_report(const Arguments& arguments);
 #ifdef JUDGE_CGAL
 bool run_weights(const Arguments& arguments);

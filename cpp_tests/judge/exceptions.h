@@ -1,4 +1,4 @@
-// Findings that are allowed, by name and with a reason: exceptions.txt.
+// Allowed findings, each with a reason: exceptions.txt.
 #ifndef HOLEFILL_JUDGE_EXCEPTIONS_H
 #define HOLEFILL_JUDGE_EXCEPTIONS_H
 
@@ -13,16 +13,16 @@ namespace judge {
 // The check of `judge fairing`; all others are made by `judge cases` and `judge inputs`.
 inline const std::string FAIRING = "fairing";
 
-// Allows what the file names; says afterwards what it names in vain.
+// Allows the findings that the file names, and lists those that did not occur.
 class Exceptions {
 public:
-    // Throws std::runtime_error when a line has no reason or comes twice.
+    // Throws std::runtime_error if a line has no reason or occurs twice.
     explicit Exceptions(const std::string& path);
 
-    // Whether the finding is allowed. It counts as seen then.
+    // Whether the finding is allowed. An allowed finding counts as seen.
     bool allow(const std::string& name, const std::string& method, const std::string& check);
 
-    // Checks that are excepted for this case and method and were not seen; of those of fairing alone, or without them.
+    // Checks that are excepted for this case and method but were not seen: either only fairing, or all others.
     std::vector<std::string> unseen(const std::string& name, const std::string& method,
                                     bool is_fairing = false) const;
 

@@ -78,7 +78,7 @@ std::vector<Triangle> search_polyline(const std::vector<Point>& points) {
 
 std::vector<Triangle> search_loop(const Arrays& arrays, const Edge& edge) {
     const holefill::Mesh mesh = holefill::Mesh::from_arrays(arrays.points, arrays.triangles);
-    return searched(mesh, mesh.find_edge(edge[0], edge[1]));
+    return searched(mesh, mesh.find_loops(holefill::Target::edge(edge[0], edge[1])).at(0));
 }
 
 std::vector<std::vector<std::uint32_t>> loops(const Arrays& arrays) {

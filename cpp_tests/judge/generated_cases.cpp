@@ -19,8 +19,8 @@ struct Wrap {
     bool u, v;
 };
 
-// A regular net of nu by nv squares over [0, 1] x [0, 1], each cut in two; alternating, so that no direction is
-// preferred. What `is_hole` says of the middle of a square holds for both halves.
+// A regular net of nu by nv squares over [0, 1] x [0, 1], each cut in two. The diagonals alternate, so that no direction
+// is preferred. `is_hole` gets the middle of a square and decides for both halves.
 Case net(const std::string& name, std::uint32_t nu, std::uint32_t nv, Wrap wrap, const Chart& chart,
          const Inside& is_hole) {
     const std::uint32_t columns = wrap.v ? nv : nv + 1, rows = wrap.u ? nu : nu + 1;
@@ -48,8 +48,8 @@ Case net(const std::string& name, std::uint32_t nu, std::uint32_t nv, Wrap wrap,
     return c;
 }
 
-// The surface of a cube with n squares along each edge, moved by `shape`; squares go by their middle on the cube
-// [-1, 1]^3.
+// The surface of a cube with n squares along each edge, moved by `shape`. Squares are identified by their middle on the
+// cube [-1, 1]^3.
 Case cube(const std::string& name, int n, const std::function<Point(const Point&)>& shape,
           const std::function<bool(const Point&)>& is_hole) {
     Case c;
@@ -112,7 +112,8 @@ Arrays compacted(const std::vector<Point>& points, std::vector<Triangle> triangl
     return out;
 }
 
-// Moves the points by noise, and gives input and truth their own numbers. Edges of `keep` count in the old numbers.
+// Moves the points by noise, and numbers the vertices of input and truth separately. Edges of `keep` have the old
+// numbers.
 Case finished(Case c, double noise, std::vector<Edge> keep = {}) {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> shift(-noise, noise);
@@ -129,7 +130,7 @@ Case finished(Case c, double noise, std::vector<Edge> keep = {}) {
 
 Point on_sphere(const Point& p) { return (1.0 / norm(p)) * p; }
 
-// The boundary edge at the first column of a sheet, as it runs in its triangle.
+// The boundary edge at the first column of a sheet, in the direction of its triangle.
 Edge sheet_rim(const Case& c) {
     const Triangle& t = c.input.triangles.front();
     return {t[0], t[1]};
@@ -183,7 +184,7 @@ std::vector<Case> generated_cases() {
             return Point{std::cos(a), std::sin(a), 4.0 * v};
         };
         Case c = net("made_tube", 32, 20, {true, false}, tube, disc(0.5, 0.5, 0.22));
-        // Both ends stay open: their first edges as they run in their triangles.
+        // Both ends stay open: their first edges, in the direction of their triangles.
         const Edge bottom{0, 21}, top{21 + 20, 20};
         add(finished(std::move(c), 0.0, {bottom, top}));
     }
@@ -205,7 +206,7 @@ std::vector<Case> generated_cases() {
         add(finished(std::move(c), 0.0, {rim}));
     }
     {
-        // Two squares of squares that share one corner.
+        // Two square holes with one common corner.
         Case c = net("made_touching", 24, 24, {false, false}, square(0.15), [](double u, double v) {
             const auto in = [](double x, double from) { return x > from && x < from + 0.25; };
             return (in(u, 0.25) && in(v, 0.25)) || (in(u, 0.5) && in(v, 0.5));
@@ -228,7 +229,7 @@ std::vector<Case> generated_cases() {
         add(finished(std::move(c), 0.0, {rim}));
     }
     {
-        // A helicoid: the rim turns while it runs.
+        // A helicoid, so that the rim is twisted.
         Case c = net("made_helicoid", 60, 16, {false, false},
                      [](double u, double v) {
                          const double a = 1.5 * PI * u, r = 0.5 + v;

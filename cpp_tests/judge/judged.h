@@ -1,4 +1,4 @@
-// A fill with all that the judges say of it.
+// A fill with the findings of all judges.
 #ifndef HOLEFILL_JUDGE_JUDGED_H
 #define HOLEFILL_JUDGE_JUDGED_H
 
@@ -24,7 +24,7 @@ struct Verdict {
 #endif
 };
 
-// What every judge that was built says.
+// The findings of all judges that were built.
 inline Verdict judge_all(const Fill& fill) {
     Verdict verdict;
     const auto take = [&](Findings findings) {
@@ -40,7 +40,7 @@ inline Verdict judge_all(const Fill& fill) {
     return verdict;
 }
 
-// Calls `work(i)` for all i below `count`, some at the same time. What it throws is thrown again.
+// Calls `work(i)` for all i below `count`, some in parallel. Exceptions of `work` are thrown again.
 void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work);
 
 }  // namespace judge

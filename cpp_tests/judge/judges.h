@@ -1,4 +1,4 @@
-// The judges. Each looks at a fill by itself and says what speaks against it.
+// The judges. Each checks a fill independently and returns its findings.
 #ifndef HOLEFILL_JUDGE_JUDGES_H
 #define HOLEFILL_JUDGE_JUDGES_H
 
@@ -6,20 +6,20 @@
 
 namespace judge {
 
-// What the library promises, compared with what it returned; no mesh library has a part in it.
+// Compares the result with the promises of the library. Uses no mesh library.
 Findings judge_promises(const Fill& fill);
 
 #ifdef JUDGE_CGAL
-// What CGAL measured besides its findings.
+// Figures that CGAL measures besides its findings.
 struct CgalMeasures {
     bool is_closed = false;
-    // 0 unless it is closed.
+    // 0 unless the mesh is closed.
     double volume = 0.0;
     std::size_t intersections = 0, needles = 0;
 };
 Findings judge_by_cgal(const Fill& fill, CgalMeasures& measures);
 
-// The number of pairs of triangles that intersect, one of them new, in whatever filled the case.
+// The number of pairs of intersecting triangles, at least one of them new, in any filling of the case.
 std::size_t count_intersections_by_cgal(const Case& c, const Arrays& output);
 #endif
 

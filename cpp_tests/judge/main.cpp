@@ -3,7 +3,7 @@
 //   judge cases|mutations|inputs|weights|fairing|report [--cases FOLDER] [--exceptions FILE] [--bounds FILE]
 //         [--data FOLDER] [--only TEXT] [--output FOLDER]
 //
-// Exit status: 0 nothing speaks against the results, 1 something does, 2 bad usage.
+// Exit status: 0 no objections, 1 objections, 2 bad usage.
 
 #include "commands.h"
 

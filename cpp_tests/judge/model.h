@@ -1,4 +1,4 @@
-// What is judged: a case, a fill of it by our library, and what a judge has to say against it.
+// A case, a fill of it by our library, and the findings of a judge.
 #ifndef HOLEFILL_JUDGE_MODEL_H
 #define HOLEFILL_JUDGE_MODEL_H
 
@@ -13,21 +13,21 @@
 
 namespace judge {
 
-// A directed edge as it runs in its triangle.
+// A directed edge, in the direction of its triangle.
 using Edge = std::array<std::uint32_t, 2>;
 
 struct Case {
     std::string name;
     Arrays input;
-    // The triangles that were removed, in a numbering of their own; empty where they are not known.
+    // The removed triangles, with their own vertices; empty if unknown.
     Arrays truth;
     // A boundary edge of each loop that stays open.
     std::vector<Edge> keep;
 };
 
-// What the library says of one loop.
+// The report of the library about one loop.
 struct Hole {
-    // The vertices of the loop, in the direction in which its triangles run.
+    // The vertices of the loop, in the direction of its triangles.
     std::vector<std::uint32_t> rim;
     double diameter = 0.0;
     bool filled = false;
@@ -35,7 +35,7 @@ struct Hole {
     std::size_t first_vertex = 0, vertex_count = 0, first_triangle = 0, triangle_count = 0;
     std::uint64_t self_intersections = 0;
     double seconds = 0.0;
-    // The method whose patch closes it, and why the loop stays open.
+    // The method whose patch closes the loop, or the reason why it stays open.
     std::string method, reason;
 };
 
@@ -47,7 +47,7 @@ struct Fill {
     double seconds = 0.0;
 };
 
-// What speaks against a result: the name of the check, and what it found.
+// A finding against a result: the name of the check, and what it found.
 struct Finding {
     std::string check, text;
 };

@@ -1,4 +1,4 @@
-// OpenMesh walks a filled mesh.
+// Checks a filled mesh with OpenMesh.
 
 #include "judges.h"
 #include "topology.h"
@@ -17,10 +17,10 @@ struct Traits : OpenMesh::DefaultTraits {
 };
 using Mesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
-// An interior vertex of fewer edges folds its triangles onto each other.
+// With fewer edges, the triangles of an interior vertex are folded onto each other.
 constexpr std::size_t LEAST_VALENCE = 3;
 
-// Triangles that it refuses, in whatever order they come.
+// Triangles that OpenMesh rejects in any order.
 std::size_t build(const Arrays& arrays, Mesh& mesh) {
     for (const Point& p : arrays.points) mesh.add_vertex({p[0], p[1], p[2]});
     std::vector<Triangle> pending = arrays.triangles;
@@ -53,7 +53,7 @@ std::size_t count_boundaries(const Mesh& mesh) {
 Findings judge_by_openmesh(const Fill& fill, OpenMeshMeasures& measures) {
     Findings findings;
     const auto object = [&](const char* check, const std::string& text) { findings.push_back({check, text}); };
-    // It says there what it also returns.
+    // OpenMesh also prints to this stream what it returns.
     static const bool is_silent = (omerr().disable(), true);
     (void)is_silent;
     Mesh mesh;
@@ -63,7 +63,7 @@ Findings judge_by_openmesh(const Fill& fill, OpenMeshMeasures& measures) {
         return findings;
     }
     const std::size_t old = fill.of->input.points.size();
-    // All vertices of the patches: those of the filled rims too.
+    // All vertices of the patches, with those of the filled rims.
     std::vector<bool> is_looked_at(mesh.n_vertices(), false);
     for (std::size_t v = old; v < is_looked_at.size(); ++v) is_looked_at[v] = true;
     for (const Hole& hole : fill.holes)
@@ -92,7 +92,7 @@ Findings judge_by_openmesh(const Fill& fill, OpenMeshMeasures& measures) {
     if (isolated != isolated_vertices(fill.of->input))
         object("openmesh-isolated", "the number of isolated vertices has changed");
 
-    // Each patch adds two less the number of loops that bound it.
+    // Each patch adds two minus the number of loops that bound it.
     long change = 0;
     std::size_t open = 0;
     for (const Hole& hole : fill.holes) {

@@ -1,4 +1,4 @@
-// What CGAL makes of the same input, and how far two surfaces are apart.
+// CGAL's filling of the same input, and the distance of two surfaces.
 #ifndef HOLEFILL_JUDGE_PEERS_H
 #define HOLEFILL_JUDGE_PEERS_H
 
@@ -6,24 +6,24 @@
 
 namespace judge {
 
-// CGAL's hole filling of a case: triangulate, refine, fair, each hole by itself.
+// CGAL's hole filling of a case: triangulate, refine, fair, for each hole separately.
 struct PeerFill {
     Arrays output;
-    // Loops that were to be filled, and those that were.
+    // Numbers of loops to fill, and of loops filled.
     std::size_t holes = 0, filled = 0;
-    // Of the filling alone.
+    // Time of the filling alone.
     double seconds = 0.0;
-    // Why there is nothing at all; empty otherwise.
+    // The reason if there is no result; empty otherwise.
     std::string failure;
 };
 
-// `continuity` 0, 1 or 2; below 0 the triangulation alone.
+// `continuity` is 0, 1 or 2; below 0, only the triangulation.
 PeerFill fill_by_cgal(const Case& c, int continuity);
 
-// Moves the vertices of `mesh` from `first` on by CGAL's fairing with its own weights. Says whether it did.
+// Moves the vertices of `mesh` from `first` on by CGAL's fairing with its own weights. Returns false if that fails.
 bool fair_by_cgal(Arrays& mesh, std::size_t first, unsigned continuity);
 
-// How far two surfaces are apart, both ways, from points spread over every triangle.
+// Two-way distances of two surfaces, from samples in every triangle.
 struct Distance {
     double largest = 0.0, rms = 0.0;
 };

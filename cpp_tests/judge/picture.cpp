@@ -13,10 +13,10 @@ namespace {
 
 using Color = std::array<double, 3>;
 
-// Width and height of a picture in pixels, each drawn as a square of SAMPLES times SAMPLES.
+// Width and height of a picture in pixels. Each pixel has SAMPLES times SAMPLES samples.
 constexpr int SIZE = 200, SAMPLES = 2, SIDE = SIZE * SAMPLES;
 constexpr Color PAPER{255, 255, 255}, OLD{196, 200, 206}, NEW{240, 150, 50}, INSIDE{110, 120, 140};
-// The eye stands so far from the normal, in radians: depth shows better from there.
+// Angle between the view and the normal, in radians: depth is easier to see from the side.
 constexpr double TILT = 0.6;
 
 struct Frame {
@@ -50,7 +50,7 @@ std::vector<Color> draw(const View& view, const Frame& frame, const Scene& scene
         if (twice == 0.0) continue;
         const Point n = area_vector(p[0], p[1], p[2]);
         const double light = 0.35 + 0.65 * std::abs(dot(unit(n), unit({-0.4, -0.5, 1.0})));
-        // The picture's second axis points down, which turns triangles round.
+        // The second axis of the picture points down, which reverses the orientation of triangles.
         Color color = twice > 0.0 ? INSIDE : f >= scene.first_new ? NEW : OLD;
         for (double& c : color) c *= light;
         const auto range = [&](std::size_t axis) {
@@ -100,7 +100,7 @@ View view_of(const Fill& fill) {
     if (!largest) return view;
     const double share = 1.0 / static_cast<double>(largest->rim.size());
     for (const std::uint32_t v : largest->rim) view.center = view.center + share * fill.output.points[v];
-    // The loop runs as its triangles do: seen from outside, clockwise round the hole.
+    // The loop has the direction of its triangles: clockwise round the hole, seen from outside.
     for (std::size_t i = 0; i < largest->rim.size(); ++i)
         view.normal = view.normal + area_vector(view.center, fill.output.points[largest->rim[(i + 1) % largest->rim.size()]],
                                                 fill.output.points[largest->rim[i]]);

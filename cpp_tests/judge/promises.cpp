@@ -11,7 +11,7 @@ namespace {
 
 std::string edge_text(const Edge& e) { return std::to_string(e[0]) + "-" + std::to_string(e[1]); }
 
-// The boundary that the report promises: that of the input without the loops that are filled.
+// The boundary that the report promises: that of the input without the filled loops.
 std::vector<Edge> promised_boundary(const Fill& fill) {
     std::vector<Edge> closed, left;
     for (const Hole& hole : fill.holes) {
@@ -33,7 +33,7 @@ Findings judge_promises(const Fill& fill) {
     const Arrays &before = fill.of->input, &after = fill.output;
     const std::size_t n = before.points.size(), f = before.triangles.size();
 
-    // The input, bit for bit.
+    // The input is unchanged, bit for bit.
     if (after.points.size() < n || std::memcmp(after.points.data(), before.points.data(), n * sizeof(Point)) != 0)
         object("input-kept", "a vertex of the input has other bits");
     if (after.triangles.size() < f ||
@@ -41,7 +41,7 @@ Findings judge_promises(const Fill& fill) {
         object("input-kept", "a triangle of the input has changed");
     if (!findings.empty()) return findings;
 
-    // The report says where everything new belongs.
+    // The report lists all new elements.
     std::size_t vertices = n, triangles = f;
     for (const Hole& hole : fill.holes) {
         if (!hole.filled && hole.vertex_count + hole.triangle_count > 0)
@@ -81,7 +81,7 @@ Findings judge_promises(const Fill& fill) {
             if (!std::isfinite(x)) object("new-vertices", "a new vertex is not finite");
     }
 
-    // Closed where promised, open elsewhere.
+    // The mesh is closed where promised, and open elsewhere.
     const std::vector<Edge> found = boundary_edges(after.triangles), promised = promised_boundary(fill);
     std::vector<Edge> difference;
     std::set_symmetric_difference(found.begin(), found.end(), promised.begin(), promised.end(),

@@ -1,4 +1,4 @@
-// Tables and pictures that a run leaves behind.
+// Tables and pictures of a run.
 #ifndef HOLEFILL_JUDGE_REPORT_H
 #define HOLEFILL_JUDGE_REPORT_H
 
@@ -7,10 +7,10 @@
 
 namespace judge {
 
-// A number in three digits: 0.0123, 1.2e-05.
+// A number with three digits: 0.0123, 1.2e-05.
 std::string scientific(double value);
 
-// A table in Markdown. Throws std::runtime_error when it cannot be written; does nothing when `folder` is empty.
+// Writes a table in Markdown. Throws std::runtime_error if that fails. Does nothing if `folder` is empty.
 void write_table(const std::string& folder, const std::string& file, const std::vector<std::string>& head,
                  const std::vector<std::vector<std::string>>& rows);
 

@@ -1,4 +1,4 @@
-// Every case by every method, before all judges; and CGAL's own filling beside ours.
+// Fills every case by every method, lets all judges check the results, and compares them with CGAL's filling.
 
 #include "cases.h"
 #include "commands.h"
@@ -30,7 +30,7 @@ using Row = std::vector<std::string>;
 const Row HEAD{"case", "method", "rims", "filled", "allowed", "intersections", "CGAL's", "to CGAL, largest",
                "to CGAL, rms", "ours to the truth", "CGAL's to the truth", "ours, ms", "CGAL's, ms"};
 
-// The rims' edges, and how many of the holes are filled.
+// The edges of the rims, and the number of filled holes.
 Row first_cells(const Fill& filled, const std::vector<std::string>& allowed) {
     std::size_t edges = 0, holes = 0, closed = 0;
     for (const Hole& hole : filled.holes) {
@@ -47,8 +47,8 @@ Row first_cells(const Fill& filled, const std::vector<std::string>& allowed) {
 
 #ifdef JUDGE_CGAL
 
-// CGAL's filling that a method is compared with: the triangulation alone, or the fairing of the same order; for methods
-// that CGAL has nothing like, its default.
+// The filling of CGAL with which a method is compared: only the triangulation, or the fairing of the same order. For
+// methods without a counterpart in CGAL, its default.
 int continuity_for(const std::string& method) { return method == "flat" ? -1 : method == "fair-c2" ? 2 : 1; }
 
 Arrays patch_of(const Arrays& mesh, const Case& c) {
@@ -57,13 +57,13 @@ Arrays patch_of(const Arrays& mesh, const Case& c) {
                           mesh.triangles.end()}};
 }
 
-// Whether an island was joined to the patch round it: CGAL closes each by itself there, and that is another surface.
+// Whether an island was joined to the patch round it. CGAL closes island and hole separately, which is another surface.
 bool has_islands(const Fill& filled) {
     return std::any_of(filled.holes.begin(), filled.holes.end(),
                        [](const Hole& h) { return h.filled && h.triangle_count == 0; });
 }
 
-// CGAL's fillings of a case, each made once, with the distance of its patch to the truth.
+// CGAL's fillings of a case, each computed once, with the distances of their patches to the truth.
 class Peers {
 public:
     explicit Peers(const Case& c) : case_(c) {}
@@ -91,8 +91,8 @@ private:
     std::map<int, Entry> entries_;
 };
 
-// The cells that CGAL's filling adds, and the distance between both over the diameter of the largest hole; nothing to
-// compare where CGAL does not fill every hole, or fills islands by themselves.
+// The table cells of CGAL's filling, and the distance between both over the diameter of the largest hole. There is no
+// distance where CGAL does not fill every hole, or fills islands separately.
 Row peer_cells(const Fill& filled, const Verdict& verdict, Peers& peers, double& apart) {
     const Case& c = *filled.of;
     const Peers::Entry& peer = peers[continuity_for(filled.method)];

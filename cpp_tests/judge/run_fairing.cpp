@@ -1,4 +1,4 @@
-// Our fairing against CGAL's, vertex by vertex, on the same refined patch.
+// Compares our fairing with CGAL's, vertex by vertex, on the same refined patch.
 
 #include "cases.h"
 #include "commands.h"
@@ -20,16 +20,16 @@ namespace judge {
 
 namespace {
 
-// Distance of a vertex over the diameter of its hole.
+// Largest distance of a vertex, over the diameter of its hole.
 constexpr double TOLERANCE = 1e-6;
-// Holes of one case, the largest first.
+// Number of holes of one case; the largest are taken.
 constexpr std::size_t HOLES_OF_A_CASE = 3;
-// New vertices of a hole. The condition of the equations of the sixth order grows with their third power: with 2,000 the
-// two solvers differ by the tolerance, for rounding alone.
+// Largest number of new vertices of a hole. The condition number of the equations of the sixth order grows with its
+// third power. With 2,000 vertices, rounding alone makes the two solvers differ by the tolerance.
 constexpr std::size_t MOST_VERTICES = 1500;
-// Energies and distances count as different when they differ by more than this share.
+// Energies and distances count as different if they differ by more than this share.
 constexpr double SAME = 1e-3;
-// Rings of triangles round a patch that are taken along: fairing of the highest order reads two.
+// Rings of triangles that are copied round a patch. Fairing of the highest order reads two.
 constexpr std::uint32_t RINGS = 3;
 
 constexpr std::size_t ORDERS = 3;
@@ -39,9 +39,9 @@ constexpr const char* METHODS[ORDERS] = {"membrane", "fair-c1", "fair-c2"};
 struct Local {
     Arrays mesh;
     std::size_t first_new = 0;
-    // For each new vertex its number in the filled mesh.
+    // The number of each new vertex in the filled mesh.
     std::vector<std::uint32_t> numbers;
-    // The rim in the numbers of `mesh`.
+    // The rim, as vertices of `mesh`.
     std::vector<std::uint32_t> rim;
     // Whether the rings that fairing reads are complete.
     bool is_surrounded = true;
@@ -102,8 +102,8 @@ Arrays patch_of(const Arrays& mesh, std::size_t first_new) {
     return patch;
 }
 
-// The energy of order 1 (area), 2 (squared mean curvature) or 3 (squared slope of the mean curvature) of the surface as
-// it is, over the patch and its rim, by cotangents and thirds of areas.
+// The energy of order 1 (area), 2 (squared mean curvature) or 3 (squared slope of the mean curvature) of the surface,
+// over the patch and its rim, with cotangents and thirds of areas.
 double energy(const Local& local, const Arrays& mesh, std::size_t order) {
     std::vector<Point> laplacian(mesh.points.size(), Point{});
     std::vector<double> area(mesh.points.size(), 0.0);
@@ -143,11 +143,11 @@ double energy(const Local& local, const Arrays& mesh, std::size_t order) {
     return total;
 }
 
-// What was found for one method.
+// Results for one method.
 struct Tally {
     std::size_t compared = 0, within = 0, not_faired = 0;
     double largest = 0.0;
-    // With the default weights: distances to CGAL's, and who is better, us or CGAL.
+    // With the default weights: distances to CGAL's vertices, and which of the two is better.
     double largest_default = 0.0, sum_default = 0.0;
     std::array<std::size_t, 3> energy{}, truth{};
 };
@@ -237,7 +237,7 @@ bool run_fairing(const Arguments& arguments) {
                                              std::to_string(local.numbers.size()), scientific(apart),
                                              scientific(default_apart), scientific(our_energy / their_energy)};
                 if (!c.truth.triangles.empty()) {
-                    // The way from the patch to the truth: that of other holes is there too.
+                    // From the patch to the truth only, because the truth also has the other holes.
                     const double near = distance_to(patch_of(default_mesh, local.first_new), c.truth).rms / diameter,
                                  far = distance_to(patch_of(theirs, local.first_new), c.truth).rms / diameter;
                     ++tally.truth[smaller(near, far)];

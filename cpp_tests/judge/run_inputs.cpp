@@ -1,4 +1,4 @@
-// The meshes of CGAL's own tests of hole filling, and the kinds of input that give no patch there.
+// The meshes of CGAL's own tests of hole filling, and inputs that have no patch there.
 
 #include "cases.h"
 #include "commands.h"
@@ -15,10 +15,11 @@ namespace judge {
 
 namespace {
 
-// The face that CGAL's test takes away from its elephant for a hole of three edges; with one beside it for four.
+// The face that CGAL's test removes from its elephant for a hole of three edges. With a neighbor removed, the hole has
+// four.
 constexpr std::size_t REMOVED_FACE = 228;
 
-// Files of CGAL's data: that of the test, and others with holes.
+// Files of CGAL's data: the file of the test, and others with holes.
 constexpr const char* FILES[] = {"mech-holes-shark", "hole", "holes", "open_cube", "double-torus-3-holes", "elephant-with-holes"};
 
 Case elephant(const Arrays& whole, bool is_quad) {
@@ -38,8 +39,8 @@ Case elephant(const Arrays& whole, bool is_quad) {
     return c;
 }
 
-// Two triangles whose four outer edges leave no patch without new vertices: across runs the edge that they share, and
-// the other way three vertices are on one line.
+// Two triangles whose four outer edges have no patch without new vertices. One diagonal is the common edge of the
+// triangles; along the other, three vertices are on one line.
 Case made_collinear() {
     Case c;
     c.name = "made_collinear";
@@ -48,8 +49,8 @@ Case made_collinear() {
     return c;
 }
 
-// What speaks against the answer to an input that no patch can close: that it is not refused with a reason, and that a
-// patch all the same does not have its intersections reported. The mesh must be as promised in each case.
+// Findings for an input that no patch can close: the library does not reject it with a reason, or makes a patch without
+// reporting its intersections. The mesh must be as promised in each case.
 Findings judge_refusal(const Fill& filled) {
     Findings findings;
     for (const Finding& finding : judge_promises(filled))
@@ -67,7 +68,7 @@ bool run_inputs(const Arguments& arguments) {
     Exceptions exceptions(arguments.exceptions);
     const Case refused = made_collinear();
     std::vector<Case> cases{refused};
-    // The rim that passes through a vertex twice, which CGAL gives no patch for, is two rims for us.
+    // For a rim that passes through a vertex twice, CGAL has no patch. For us it is two rims.
     for (const Case& c : generated_cases())
         if (c.name == "made_touching") cases.push_back(c);
     if (std::filesystem::is_directory(arguments.data)) {
@@ -76,7 +77,7 @@ bool run_inputs(const Arguments& arguments) {
         cases.push_back(elephant(whole, true));
         for (const char* file : FILES) cases.push_back({file, read_off(arguments.data + "/" + file + ".off"), {}, {}});
     } else {
-        std::printf("SKIPPED: the meshes of CGAL's tests are not at hand\n");
+        std::printf("SKIPPED: the meshes of CGAL's tests are missing\n");
     }
     std::size_t objections = 0, allowed = 0;
     std::vector<std::vector<std::string>> rows;

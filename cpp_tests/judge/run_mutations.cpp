@@ -1,6 +1,6 @@
-// Corrupts results on purpose: the judges must see every corruption.
+// Corrupts results. The judges must detect every corruption.
 //
-// Where a report could betray the corruption by its numbers, the numbers are corrupted with it.
+// If the numbers of the report would reveal a corruption, they are changed too.
 
 #include "cases.h"
 #include "commands.h"
@@ -22,14 +22,14 @@ namespace {
 
 using Random = std::mt19937_64;
 
-// Beyond the triangle that a vertex is pushed through, as a share of the way there.
+// How far a vertex is pushed beyond the triangle, as a share of its distance to the triangle.
 constexpr double PUSH = 0.05;
 
 std::size_t pick(Random& random, std::size_t count) {
     return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
 }
 
-// The hole whose patch comes last; null when there is no patch.
+// The hole whose patch comes last; null if there is no patch.
 Hole* last_patch(Fill& fill) {
     const auto at = std::find_if(fill.holes.rbegin(), fill.holes.rend(), [](const Hole& h) { return h.triangle_count > 0; });
     return at == fill.holes.rend() ? nullptr : &*at;
@@ -72,7 +72,7 @@ bool duplicate_face(Fill& fill, Random& random) {
     return true;
 }
 
-// A vertex of a patch goes through a triangle that it has nothing to do with.
+// Pushes a vertex of a patch through a triangle that is not near it in the mesh.
 bool push_through(Fill& fill, Random& random) {
     const auto hole = std::find_if(fill.holes.begin(), fill.holes.end(), [](const Hole& h) { return h.vertex_count > 0; });
     if (hole == fill.holes.end()) return false;
@@ -106,7 +106,7 @@ constexpr Mutation MUTATIONS[] = {
     {"duplicate a triangle of the patch", duplicate_face}, {"push a new vertex through the surface", push_through},
 };
 
-// Corruptions made, those caught by any judge, and by each.
+// The numbers of corruptions made, detected by any judge, and detected by each judge.
 struct Tally {
     std::size_t made = 0, caught = 0;
     std::map<std::string, std::size_t> by;
@@ -119,7 +119,7 @@ std::string judge_of(const std::string& check) {
     return "promises";
 }
 
-// The judges that say something of `fill` that they do not say of the sound result.
+// The judges with findings about `fill` that they do not have about the correct result.
 std::set<std::string> new_objectors(const Verdict& sound, const Fill& fill) {
     std::set<std::string> out;
     for (const Finding& finding : judge_all(fill).findings) {
@@ -142,7 +142,7 @@ bool run_mutations(const Arguments& arguments) {
         if (name.find(arguments.only) == std::string::npos) return;
         const Case c = is_public ? read_public_case(arguments.cases, name) : generated[i - names.size()];
         for (const std::string& method : methods()) {
-            // Large public models take their time: one method of each is enough there.
+            // Large public models are slow, so only one method is used there.
             if (is_public && method != methods()[i % methods().size()]) continue;
             const Fill sound = fill(c, method);
             const Verdict verdict = judge_all(sound);

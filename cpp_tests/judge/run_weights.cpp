@@ -1,4 +1,4 @@
-// The exact search against CGAL's: the same least weight for every loop.
+// Compares the exact search with CGAL's: both must find the same least weight for every loop.
 
 #include "cases.h"
 #include "commands.h"
@@ -18,23 +18,23 @@ namespace judge {
 namespace {
 
 constexpr double PI = 3.14159265358979323846;
-// Weights differ when they differ by more than this, angles relative to a half turn, areas relative to the area.
+// Weights are different if they differ by more than this: angles relative to a half turn, areas relative to the area.
 constexpr double TOLERANCE = 1e-9;
-// Angles closer than this are equal but for rounding.
+// Angles closer than this are equal up to rounding.
 constexpr double TIE = 1e-12;
 // Noise that breaks ties, over the size of the loop.
 constexpr double ROUGHNESS = 1e-6;
 constexpr std::size_t LARGEST = 200;
-// Loops of each made kind. Their sizes go from 3 to the largest.
+// Number of loops of each generated kind. Their sizes are from 3 to LARGEST.
 constexpr std::size_t LOOPS_OF_A_KIND = 110;
-// Loops taken from one case at most.
+// Largest number of loops from one case.
 constexpr std::size_t LOOPS_OF_A_CASE = 25;
 
 struct Task {
     std::string kind;
     Loop loop;
-    // The loop in a mesh with a triangle outside each edge, and where each position of the loop is in it; empty for a
-    // loop of which nothing is known outside.
+    // The loop in a mesh with a triangle outside each edge, and the vertex of each position of the loop. Empty for a
+    // loop without triangles outside.
     Arrays mesh;
     std::vector<std::uint32_t> vertices;
 };
@@ -60,7 +60,7 @@ std::vector<Point> made_points(const std::string& kind, std::size_t m, Random& r
         } else if (kind == "curved") {
             p[2] = 0.6 * std::cos(2.0 * a + phase) + 0.2 * std::sin(3.0 * a);
         } else if (kind == "twisted") {
-            // Runs round a torus while it runs round itself.
+            // Winds round a torus.
             const double b = turns * a + phase;
             p = {(2.0 + r * std::cos(b)) * std::cos(a), (2.0 + r * std::cos(b)) * std::sin(a), r * std::sin(b)};
         }
@@ -69,8 +69,8 @@ std::vector<Point> made_points(const std::string& kind, std::size_t m, Random& r
     return points;
 }
 
-// The search looks at what won below each chord and never back, so its result depends on where the loop begins. In a
-// mesh the library begins at the vertex farthest from the middle, wherever the loop is said to begin.
+// The search keeps only the best triangle below each chord, so its result depends on the start of the loop. In a mesh,
+// the library always starts at the vertex farthest from the middle.
 void begin_as_the_library(Task& task) {
     std::vector<Point>& points = task.loop.points;
     Point middle{};
@@ -85,7 +85,7 @@ void begin_as_the_library(Task& task) {
     turn(task.vertices);
 }
 
-// A collar of triangles outside the loop, two at each edge, as rough as the loop.
+// A collar of triangles outside the loop, two at each edge, with the same roughness as the loop.
 void add_collar(Task& task, Random& random) {
     const std::size_t m = task.loop.points.size();
     Point middle{};
@@ -107,7 +107,7 @@ void add_collar(Task& task, Random& random) {
     begin_as_the_library(task);
 }
 
-// From 3 to the largest, small ones more often.
+// From 3 to LARGEST, small sizes more often.
 std::size_t size_of(std::size_t k, std::size_t count) {
     const double share = static_cast<double>(k) / static_cast<double>(count - 1);
     return static_cast<std::size_t>(std::lround(3.0 * std::pow(LARGEST / 3.0, share)));
@@ -126,7 +126,7 @@ void add_made(std::vector<Task>& tasks) {
             }
 }
 
-// The rims of a case, without those that touch each other or that the mesh joins across.
+// The rims of a case, without rims that touch each other, and without rims with a chord that is a mesh edge.
 void add_rims(std::vector<Task>& tasks, const Case& c, const std::string& kind) {
     std::map<Edge, std::uint32_t> apexes;
     for (const Triangle& t : c.input.triangles)
@@ -164,7 +164,7 @@ void add_rims(std::vector<Task>& tasks, const Case& c, const std::string& kind) 
     }
 }
 
-// Our triangulation, in positions of the loop.
+// Our triangulation, as positions of the loop.
 std::vector<Triangle> search_by_us(const Task& task) {
     if (task.mesh.triangles.empty()) return search_polyline(task.loop.points);
     std::map<std::uint32_t, std::uint32_t> positions;
@@ -175,7 +175,7 @@ std::vector<Triangle> search_by_us(const Task& task) {
     return triangles;
 }
 
-// The task with every vertex of the mesh moved by a little noise.
+// The task, with small noise on every vertex of the mesh.
 Task roughened(Task task, Random& random) {
     std::map<Point, Point> moved;
     double size = 0.0;
@@ -194,7 +194,7 @@ Task roughened(Task task, Random& random) {
 
 struct Difference {
     std::optional<Weight> ours, theirs;
-    // Of the angles over a half turn, and of the areas over the area.
+    // Differences of the angles over a half turn, and of the areas over the area.
     double angle = 0.0, area = 0.0;
 
     bool is_equal() const { return angle <= TOLERANCE && area <= TOLERANCE; }
@@ -209,7 +209,7 @@ Difference compare(const Task& task) {
     return d;
 }
 
-// What became of the loops of a kind.
+// Results for the loops of a kind.
 struct Tally {
     std::size_t loops = 0, equal = 0, ties = 0, different = 0, only_one = 0, neither = 0;
     double largest_angle = 0.0, largest_area = 0.0;
@@ -230,8 +230,8 @@ bool run_weights(const Arguments& arguments) {
     in_parallel(tasks.size(), [&](std::size_t i) {
         const Task& task = tasks[i];
         Difference d = compare(task);
-        // Symmetric rims have angles that are equal but for their last bits, which then choose between areas. Rid of its
-        // symmetry the rim must have one answer.
+        // Symmetric rims have angles that are equal except for their last bits, which then choose between areas. Without
+        // its symmetry, the rim must have one answer.
         const bool is_tie = !d.is_equal() && d.angle <= TIE && !task.mesh.triangles.empty();
         if (is_tie) {
             Random random(i);

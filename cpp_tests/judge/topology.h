@@ -1,4 +1,4 @@
-// Edges of triangle lists, counted without any mesh library.
+// Counts edges of triangle lists, without a mesh library.
 #ifndef HOLEFILL_JUDGE_TOPOLOGY_H
 #define HOLEFILL_JUDGE_TOPOLOGY_H
 
@@ -9,16 +9,16 @@
 
 namespace judge {
 
-// Every directed edge of the triangles that has no partner in the other direction, sorted; as often as it has none.
+// The directed edges of the triangles without a partner in the other direction, sorted, with repetitions.
 std::vector<Edge> boundary_edges(const std::vector<Triangle>& triangles);
 
-// Vertices that are used minus edges plus triangles.
+// Used vertices minus edges plus triangles.
 long euler_characteristic(const Arrays& mesh);
 
 std::size_t isolated_vertices(const Arrays& mesh);
 
-// New triangles, and those of the input that come near one: that share a vertex with it, or whose bounding box meets
-// that of the patch. As indices, ascending.
+// Indices, ascending, of the new triangles and of the input triangles near them: those with a common vertex, or whose
+// bounding box meets that of the patch.
 std::vector<std::size_t> patch_and_surroundings(const Fill& fill);
 
 }  // namespace judge

@@ -24,7 +24,7 @@ std::optional<Weight> weigh(const Loop& loop, const std::vector<Triangle>& trian
         for (std::size_t k = 0; k < 3; ++k)
             if (!sides.emplace(Edge{t[k], t[(k + 1) % 3]}, normal).second) return std::nullopt;
     }
-    // Twice the arc tangent keeps its digits near 0 and near a half turn as well.
+    // Twice the arc tangent is accurate near 0 and near a half turn.
     const auto turn = [&](const Point& p, const Point& q) {
         weight.angle = std::max(weight.angle, 2.0 * std::atan2(norm(p - q), norm(p + q)));
     };

@@ -1,4 +1,4 @@
-// The weight of a triangulated loop, computed without either library.
+// Computes the weight of a triangulated loop, without the two libraries.
 #ifndef HOLEFILL_JUDGE_WEIGHTS_H
 #define HOLEFILL_JUDGE_WEIGHTS_H
 
@@ -8,8 +8,8 @@
 
 namespace judge {
 
-// A closed loop of points, and the apex of the triangle outside each edge (from a point to the next one); no apexes when
-// nothing is known outside.
+// A closed loop of points, and the apex of the triangle outside each edge (from a point to the next one). There are no
+// apexes if there are no triangles outside.
 struct Loop {
     std::vector<Point> points, apexes;
 };
@@ -20,12 +20,12 @@ struct Weight {
     double area = 0.0;
 };
 
-// The weight of triangles over the positions of the loop, which run as it does; nothing when they do not span it: when an
-// edge of the loop is not used once in its direction, or another edge not once in each.
+// The weight of triangles over the positions of the loop, in its direction. No value if they do not span it: if an edge
+// of the loop is not used once in its direction, or another edge is not used once in each direction.
 std::optional<Weight> weigh(const Loop& loop, const std::vector<Triangle>& triangles);
 
 #ifdef JUDGE_CGAL
-// The triangulation by CGAL's cubic search; empty when there is none.
+// The triangulation by CGAL's cubic search; empty if there is none.
 std::vector<Triangle> search_by_cgal(const Loop& loop);
 #endif
 

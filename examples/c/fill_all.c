@@ -1,8 +1,8 @@
-/* Fills all holes of a mesh and says what happened to each, in C.
+/* Fills all holes of a mesh and prints the result for each, in C.
  *
  *   fill_all [OUT.obj]
  *
- * The mesh is made here: a paraboloid of triangles with a few of them missing. The outer rim stays open. */
+ * The program makes the mesh: a paraboloid with some triangles missing. The outer rim stays open. */
 #include <holefill.h>
 
 #include <stdio.h>
@@ -118,7 +118,7 @@ int main(int argc, char **argv) {
             if (is_missing(i, j)) {
                 continue;
             }
-            /* The row after this one is the other half of the square. */
+            /* The next row is the other half of the square. */
             t[0] = t[3] = a;
             t[1] = b;
             t[2] = t[4] = c;

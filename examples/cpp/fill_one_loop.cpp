@@ -1,7 +1,7 @@
-// Fills one chosen hole of a program's own halfedge mesh, and leaves everything else to that program.
+// Fills one chosen hole of a halfedge mesh that belongs to the calling program.
 //
-// The library gets the vertices where they are, inside the program's own structs, and gives back the patch: new
-// vertices, and triangles in the program's own vertex numbers. The program adds them as it adds any face.
+// The library reads the vertices directly from the structs of the program. It returns the patch: new vertices, and
+// triangles with the vertex numbers of the program. The program adds them like any other face.
 #include <holefill.hpp>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace {
 
-// The kind of mesh that a CAD program has: halfedges, with its own data at every element.
+// A mesh as in a CAD program: halfedges, with the program's own data at every element.
 class HalfedgeMesh {
 public:
     static constexpr int NONE = -1;
@@ -88,18 +88,18 @@ HalfedgeMesh make_pipe() {
     return mesh;
 }
 
-// Fills the hole at a boundary halfedge that somebody has picked.
+// Fills the hole at a boundary halfedge that a user has selected.
 void fill_hole(HalfedgeMesh& mesh, int picked) {
     std::vector<std::array<uint32_t, 3>> triangles;
     for (const auto& face : mesh.faces) {
         triangles.push_back(mesh.corners(face));
     }
-    // Rows of three numbers, as far apart as the program's own structs are.
+    // Rows of three numbers; their stride is the size of the program's struct.
     const holefill::Rows<3> points(mesh.vertices[0].point, mesh.vertices.size(), sizeof(HalfedgeMesh::Vertex));
     const holefill::Mesh input = holefill::Mesh::from_arrays(points, triangles);
 
     const auto& edge = mesh.halfedges[picked];
-    const uint64_t loop = input.find_edge(edge.from, edge.to);
+    const uint64_t loop = input.find_loops(holefill::Target::edge(edge.from, edge.to)).at(0);
     const holefill::Plan plan = input.plan(holefill::Target::loop(loop));
     const holefill::Hole hole = plan.report().hole(0);
     if (hole.status != HOLEFILL_HOLE_FILLED) {

@@ -3,8 +3,8 @@
 use holefill::TriMesh;
 use std::f64::consts::TAU;
 
-/// A unit sphere of meridians and parallels that are as far apart at the equator, without a cap round its pole. The
-/// vertices of the rim come first, parallels follow.
+/// A unit sphere without a cap round its pole. Meridians and parallels have the same spacing at the equator. The
+/// vertices of the rim come first, then those of the parallels.
 pub(crate) fn sphere_without_cap(meridians: usize, degrees: usize) -> TriMesh {
     let rows = meridians / 2;
     let first = rows * degrees / 180;

@@ -1,6 +1,6 @@
-//! What the programs that rerun the papers' experiments have in common.
+//! Code that the programs share which repeat the experiments of the papers.
 
-// No program uses all of it.
+// Each program uses only a part of it.
 #![allow(dead_code)]
 
 pub(crate) mod cap;
@@ -14,12 +14,12 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Runs of each measurement of time, of which the fastest counts.
+/// Runs of each time measurement; the fastest counts.
 pub(crate) const RUNS: usize = 5;
 
 pub(crate) type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// The folder of the models and that of the results, from the command line.
+/// The folders of the models and of the results, from the command line.
 pub(crate) fn folders() -> Result<(PathBuf, PathBuf)> {
     let mut arguments = std::env::args_os().skip(1).map(PathBuf::from);
     let models = arguments.next().ok_or("which folder are the models in?")?;
@@ -42,10 +42,10 @@ pub(crate) fn command(name: &str) -> String {
 pub(crate) struct Case {
     pub(crate) name: String,
     pub(crate) mesh: TriMesh,
-    /// Leaves the loops open that are no holes.
+    /// Selection that leaves loops open which are not holes.
     pub(crate) selection: Selection,
     pub(crate) holes: usize,
-    /// The triangles that were taken out, without their noise.
+    /// The removed triangles, without noise.
     truth: Option<MeshData>,
     meta: serde_json::Value,
 }
@@ -83,12 +83,12 @@ impl Case {
         })
     }
 
-    /// What the model is and where it comes from.
+    /// Description and origin of the model.
     pub(crate) fn description(&self) -> &str {
         self.meta["description"].as_str().unwrap_or("")
     }
 
-    /// Triangles that were taken out.
+    /// Number of removed triangles.
     pub(crate) fn removed(&self) -> String {
         let removed = self.meta["removed_triangles"].as_u64();
         removed.map_or("–".to_owned(), |n| n.to_string())
@@ -99,7 +99,7 @@ impl Case {
         fill(&self.mesh, &self.selection, options, 1)
     }
 
-    /// Fills the holes [`RUNS`] times for the time that it takes.
+    /// Fills the holes [`RUNS`] times, to measure the time.
     pub(crate) fn time(&self, options: &FillOptions) -> Result<Filled> {
         fill(&self.mesh, &self.selection, options, RUNS)
     }
@@ -109,7 +109,7 @@ impl Case {
         let Some(truth) = &self.truth else {
             return Ok(None);
         };
-        // So that no vertex of the input counts as new.
+        // So that vertices of the input do not count as new.
         let mut known = truth.positions.clone();
         known.extend(self.mesh.positions());
         let new = &filled.mesh.triangles()[self.mesh.triangles().len()..];
@@ -129,7 +129,7 @@ pub(crate) struct Filled {
 }
 
 impl Filled {
-    /// Holes that were filled by the method itself, not by one that it falls back to.
+    /// Holes that the method itself filled, not one of its fallbacks.
     pub(crate) fn by(&self, method: Method) -> usize {
         let holes = self.report.holes.iter();
         holes.filter(|h| h.method == Some(method)).count()
@@ -191,7 +191,7 @@ pub(crate) fn least_seconds<T>(mut work: impl FnMut() -> Result<T>) -> Result<f6
     Ok(least)
 }
 
-/// Time that the processor has spent on this process: other work on the machine counts little.
+/// Processor time of this process. Other work on the machine has little influence.
 #[cfg(unix)]
 pub(crate) fn processor_time() -> Duration {
     use rustix::time::{ClockId, clock_gettime};
@@ -200,7 +200,7 @@ pub(crate) fn processor_time() -> Duration {
     Duration::from_secs(seconds) + Duration::from_nanos(u64::try_from(time.tv_nsec).unwrap_or(0))
 }
 
-/// Time that has passed since the first call, where processor time cannot be had.
+/// Time since the first call, where processor time is not available.
 #[cfg(not(unix))]
 pub(crate) fn processor_time() -> Duration {
     use std::sync::OnceLock;

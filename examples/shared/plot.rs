@@ -17,7 +17,7 @@ pub(crate) enum Scale {
     Logarithmic,
 }
 
-/// Writes the plot of `lines` to `file`; the labels are those of x and y. Both axes have the same scale; a linear y
+/// Writes the plot of `lines` to `file`, with the labels of x and y. Both axes have the same kind of scale. A linear y
 /// axis starts at zero.
 pub(crate) fn plot(
     file: &Path,
@@ -82,7 +82,7 @@ where
             .draw_series(LineSeries::new(points.clone(), color.stroke_width(2)))?
             .label(&line.name)
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], color.stroke_width(2)));
-        // Marks for values that were measured one by one.
+        // Marks for single measured values.
         if line.points.len() < 15 {
             chart.draw_series(points.map(|p| Circle::new(p, 3, color.filled())))?;
         }
@@ -97,7 +97,7 @@ where
     Ok(())
 }
 
-/// As short as it goes without losing what tells two marks of an axis apart.
+/// The shortest text that still distinguishes two marks of an axis.
 fn number(x: &f64) -> String {
     let size = x.abs();
     if size != 0.0 && !(1e-3..1e6).contains(&size) {

@@ -42,6 +42,11 @@ impl Bytes<'_> {
         }
     }
 
+    /// Null most of the time.
+    fn or_null<T>(&mut self, value: &T) -> *const T {
+        if self.byte() > 99 { ptr::null() } else { value }
+    }
+
     fn coordinate(&mut self) -> f64 {
         match self.byte() {
             255 => f64::NAN,
@@ -113,14 +118,10 @@ unsafe extern "C" fn log(_: HolefillLogLevel, message: *const c_char, _: *mut c_
 }
 
 fn info(mesh: HolefillMesh) -> Option<HolefillMeshInfo> {
-    // SAFETY: zeros are a value of the struct, and the pointer is to it.
-    unsafe {
-        let mut info: HolefillMeshInfo = std::mem::zeroed();
-        info.struct_size = size_of::<HolefillMeshInfo>() as u32;
-        info.version = HOLEFILL_MESH_INFO_VERSION;
-        let status = holefill_mesh_info(mesh, &mut info, ptr::null_mut());
-        (status == HOLEFILL_STATUS_OK).then_some(info)
-    }
+    let mut info = HolefillMeshInfo::default();
+    // SAFETY: the pointer is to a living value.
+    let status = unsafe { holefill_mesh_info(mesh, &mut info, ptr::null_mut()) };
+    (status == HOLEFILL_STATUS_OK).then_some(info)
 }
 
 /// Positions, triangles and number of fills of a mesh; nothing for a handle of none.
@@ -128,21 +129,9 @@ type State = Option<(Vec<u64>, Vec<u32>, u64)>;
 
 fn state(mesh: HolefillMesh) -> State {
     let info = info(mesh)?;
-    let mut positions = vec![0_u64; 3 * info.vertex_count as usize];
-    let mut triangles = vec![0_u32; 3 * info.triangle_count as usize];
-    let to_positions = HolefillOutput {
-        data: positions.as_mut_ptr().cast(),
-        count: info.vertex_count,
-        stride: 0,
-        scalar_type: HOLEFILL_TYPE_F64,
-        reserved: 0,
-    };
-    let to_triangles = HolefillOutput {
-        data: triangles.as_mut_ptr().cast(),
-        count: info.triangle_count,
-        scalar_type: HOLEFILL_TYPE_U32,
-        ..to_positions
-    };
+    let (mut positions, mut triangles) = (vec![[0_u64; 3]; info.vertex_count as usize], vec![[0_u32; 3]; info.triangle_count as usize]);
+    let to_positions = output(&view(&positions, HOLEFILL_TYPE_F64), positions.as_mut_ptr());
+    let to_triangles = output(&view(&triangles, HOLEFILL_TYPE_U32), triangles.as_mut_ptr());
     // SAFETY: the outputs describe living memory.
     unsafe {
         let read = holefill_mesh_read_positions(mesh, 0, &to_positions, ptr::null_mut());
@@ -150,7 +139,7 @@ fn state(mesh: HolefillMesh) -> State {
         let read = holefill_mesh_read_triangles(mesh, 0, &to_triangles, ptr::null_mut());
         assert_eq!(read, HOLEFILL_STATUS_OK);
     }
-    Some((positions, triangles, info.undo_count))
+    Some((positions.into_flattened(), triangles.into_flattened(), info.undo_count))
 }
 
 /// All of these rows.
@@ -158,10 +147,15 @@ fn view<T>(rows: &[T], scalar_type: HolefillType) -> HolefillInput {
     HolefillInput {
         data: rows.as_ptr().cast(),
         count: rows.len() as u64,
-        stride: 0,
         scalar_type,
-        reserved: 0,
+        ..NO_ROWS
     }
+}
+
+/// Room at `data` for the rows of a view.
+fn output<T>(rows: &HolefillInput, data: *mut T) -> HolefillOutput {
+    let &HolefillInput { count, stride, scalar_type, reserved, .. } = rows;
+    HolefillOutput { data: data.cast(), count, stride, scalar_type, reserved }
 }
 
 const NO_ROWS: HolefillInput = HolefillInput {
@@ -209,13 +203,7 @@ impl Room {
 
     fn output(&mut self, bytes: &mut Bytes<'_>) -> HolefillOutput {
         let view = self.view(bytes);
-        HolefillOutput {
-            data: view.data.cast_mut(),
-            count: view.count,
-            stride: view.stride,
-            scalar_type: view.scalar_type,
-            reserved: view.reserved,
-        }
+        output(&view, view.data.cast_mut())
     }
 }
 
@@ -293,42 +281,28 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
     let e = &raw mut *error;
     // The vertices of a loop, most of the time of this mesh.
     let mut chain = [0_u32; 64];
-    let output = HolefillOutput {
-        data: chain.as_mut_ptr().cast(),
-        count: 64,
-        stride: 0,
-        scalar_type: HOLEFILL_TYPE_U32,
-        reserved: 0,
-    };
-    // SAFETY: zeros are a value of the struct, and the pointers are to living values.
+    // SAFETY: the pointers are to living values.
     let length = unsafe {
-        let mut info: HolefillLoopInfo = std::mem::zeroed();
-        info.struct_size = size_of::<HolefillLoopInfo>() as u32;
-        info.version = HOLEFILL_LOOP_INFO_VERSION;
-        let status = holefill_mesh_loop_info(mesh, id, &mut info, ptr::null_mut());
-        let count = info.vertex_count.min(64);
-        if status == HOLEFILL_STATUS_OK {
-            let output = HolefillOutput { count, ..output };
-            holefill_mesh_read_loop(mesh, id, 0, &output, ptr::null_mut());
-        }
-        count as usize
+        let mut info = HolefillLoopInfo::default();
+        holefill_mesh_loop_info(mesh, id, &mut info, ptr::null_mut());
+        let length = info.vertex_count.min(64) as usize;
+        let to_chain = output(&view(&chain[..length], HOLEFILL_TYPE_U32), chain.as_mut_ptr());
+        holefill_mesh_read_loop(mesh, id, 0, &to_chain, ptr::null_mut());
+        length
     };
     // A target of every kind, with rules, rows or a chain.
     let (ids_view, edges) = (room.view(bytes), room.view(bytes));
     let vertices = view(&chain[..length], HOLEFILL_TYPE_U32);
     let rules = HolefillSelection {
-        struct_size: size_of::<HolefillSelection>() as u32,
-        version: HOLEFILL_SELECTION_VERSION,
         only: if bytes.byte() > 128 { edges } else { NO_ROWS },
-        keep: NO_ROWS,
         max_edges: bytes.number(),
         max_perimeter: bytes.coordinate(),
         keep_largest: bytes.number(),
+        ..HolefillSelection::default()
     };
     let target = Longer {
         known: HolefillTarget {
             struct_size: size_of::<HolefillTarget>() as u32 + u32::from(bytes.byte() == 77),
-            version: HOLEFILL_TARGET_VERSION,
             kind: u32::from(bytes.byte() % 6),
             reserved: u32::from(bytes.byte() == 200),
             loop_id: id % 6,
@@ -339,6 +313,7 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
                 _ => ptr::null(),
             },
             selection: if bytes.byte() > 99 { &rules } else { ptr::null() },
+            ..HolefillTarget::default()
         },
         beyond: u64::from(bytes.byte() == 79),
     };
@@ -359,7 +334,7 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
             }
             5 => {
                 let (p, n) = (room.view(bytes), other_room.view(bytes));
-                let n = if bytes.byte() > 99 { ptr::null() } else { &raw const n };
+                let n = bytes.or_null(&n);
                 holefill_mesh_from_polyline(&p, n, &mut new_mesh, e)
             }
             6 => {
@@ -368,7 +343,7 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
                     .map(|_| [bytes.coordinate(), bytes.coordinate(), bytes.coordinate()])
                     .collect();
                 let p = view(&points, HOLEFILL_TYPE_F64);
-                let n = if bytes.byte() > 99 { ptr::null() } else { &raw const p };
+                let n = bytes.or_null(&p);
                 holefill_mesh_from_polyline(&p, n, &mut new_mesh, e)
             }
             7 => holefill_mesh_free(mesh),
@@ -384,11 +359,8 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
                 let components = 1 + u32::from(bytes.byte() % 3);
                 let view = match (info(mesh), bytes.byte() % 2) {
                     (Some(info), 0) if info.vertex_count < 80 => HolefillInput {
-                        data: room.bytes.as_ptr().cast(),
                         count: if element == 1 { info.vertex_count } else { info.triangle_count.min(80) },
-                        stride: 0,
-                        scalar_type: u32::from(bytes.byte() % 11),
-                        reserved: 0,
+                        ..view(&room.bytes, u32::from(bytes.byte() % 11))
                     },
                     _ => room.view(bytes),
                 };
@@ -404,9 +376,7 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
             }
             20 => holefill_mesh_loop_count(mesh, &mut number, e),
             21 => holefill_mesh_read_loop(mesh, id, from, &room.output(bytes), e),
-            22 => holefill_mesh_find_edge(mesh, from, to, &mut number, e),
-            23 => holefill_mesh_find_vertices(mesh, &room.view(bytes), ids.as_mut_ptr(), capacity, &mut number, e),
-            24 => holefill_mesh_select(mesh, &rules, ids.as_mut_ptr(), capacity, &mut number, e),
+            22..25 => holefill_mesh_find_loops(mesh, t, ids.as_mut_ptr(), capacity, &mut number, e),
             25..30 => holefill_mesh_fill(mesh, t, o, &mut new_report, e),
             30 => holefill_mesh_fill_all(mesh, e),
             31..33 => holefill_mesh_plan(mesh, t, o, &mut new_plan, e),
@@ -429,8 +399,8 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
             38 => holefill_report_reason(report, id, text.as_mut_ptr(), capacity, &mut number, e),
             39 => {
                 let (p, n, c) = (room.view(bytes), other_room.view(bytes), room.view(bytes));
-                let n = if bytes.byte() > 99 { ptr::null() } else { &raw const n };
-                let c = if bytes.byte() > 99 { ptr::null() } else { &raw const c };
+                let n = bytes.or_null(&n);
+                let c = bytes.or_null(&c);
                 holefill_mesh_from_points(&p, n, c, ptr::null(), &mut new_mesh, ptr::null_mut(), e)
             }
             40 => {
@@ -441,26 +411,21 @@ fn call(bytes: &mut Bytes<'_>, world: &mut World, error: &mut HolefillError) {
                     _ => (&raw const p, &raw const p),
                 };
                 let point_options = HolefillPointOptions {
-                    struct_size: size_of::<HolefillPointOptions>() as u32,
-                    version: HOLEFILL_POINT_OPTIONS_VERSION,
                     radius: if bytes.byte() < 200 { 0.0 } else { bytes.coordinate() },
                     neighbours: if bytes.byte() < 100 { 0 } else { bytes.number() as u32 },
                     threads: u32::from(bytes.byte() % 3),
                     time_budget: if bytes.byte() < 200 { 0.0 } else { bytes.coordinate() },
                     progress: options.known.progress,
                     progress_data: options.known.progress_data,
+                    ..HolefillPointOptions::default()
                 };
                 holefill_mesh_from_points(&p, n, c, &point_options, &mut new_mesh, ptr::null_mut(), e)
             }
             41 => holefill_report_json(report, text.as_mut_ptr(), 64, &mut number, e),
             42 => {
                 // A struct of any size, within its room.
-                let mut prediction = Longer {
-                    known: std::mem::zeroed::<HolefillPrediction>(),
-                    beyond: u64::MAX,
-                };
+                let mut prediction = Longer { known: HolefillPrediction::default(), beyond: u64::MAX };
                 prediction.known.struct_size = u32::from(bytes.byte()) % (size_of::<Longer<HolefillPrediction>>() as u32 + 1);
-                prediction.known.version = HOLEFILL_PREDICTION_VERSION;
                 holefill_report_prediction(report, id, (&raw mut prediction).cast(), e)
             }
             _ => {

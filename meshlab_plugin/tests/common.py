@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The plugin in PyMeshLab, the library beside it, and meshes: what the tests share.
+"""What the tests share: the plugin in PyMeshLab, the library, and meshes.
 
 HOLEFILL_PLUGIN names the plugin, HOLEFILL_LIBRARY the shared library built from the same sources.
 """
@@ -14,7 +14,7 @@ FILL = "meshing_fill_holes_holefill"
 SELECT = "compute_selection_from_hole_rims"
 REPORT = "get_holes_report"
 
-# PyMeshLab 2022.2 writes beyond the end of custom attributes of points when it makes them.
+# PyMeshLab 2022.2 writes beyond the end of the memory when it makes a custom attribute of points.
 HAS_POINT_ATTRIBUTES = hasattr(ml, "PureValue")
 
 ml.load_plugin(os.path.abspath(os.environ["HOLEFILL_PLUGIN"]))
@@ -72,7 +72,7 @@ def rows(array, scalar_type):
 
 
 def fill_by_library(positions, triangles, method=None, density=0.0, **rules):
-    """Positions and triangles as the library fills the mesh itself."""
+    """Positions and triangles of the mesh that the library fills directly."""
     positions = np.ascontiguousarray(positions, np.float64)
     triangles = np.ascontiguousarray(triangles, np.uint32)
     mesh = Handle()
@@ -147,7 +147,7 @@ def pure(value):
 
 
 def rim_faces(triangles):
-    """For each boundary loop the faces along it and its number of edges, by the smallest vertex of the loop."""
+    """For each boundary loop, by its smallest vertex: the faces along it and its number of edges."""
     edges = {}
     for index, face in enumerate(triangles):
         for k in range(3):

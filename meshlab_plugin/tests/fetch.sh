@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Fetches what the plugin is built against and tested with, once, into a folder:
+# Downloads what the plugin needs for its build and its tests into a folder:
 #
 #     meshlab_plugin/tests/fetch.sh FOLDER
 #
@@ -8,10 +8,10 @@
 #     FOLDER/2022.02/venv      the same release as a Python module                 PyPI
 #     FOLDER/2025.07/...       the same
 #
-# Sources come through apt, from the server that this machine's apt uses, in apt folders of their own: the machine's
-# lists stay as they are. What is there already is not fetched again. Debian has 2025.07 only in its development
-# suite and may drop it any day: then that release is left out, with a line that begins with SKIPPED. Anything else
-# that is missing is an error.
+# Sources come from apt, from the server that this machine's apt uses. They use separate apt folders, so the machine's
+# lists do not change. Files that exist are not downloaded again. Debian has 2025.07 only in its development suite and
+# may remove it at any time. Then the script skips that release, and prints a line that begins with SKIPPED. Anything
+# else that is missing is an error.
 set -euo pipefail
 
 [ $# = 1 ] || {
@@ -21,7 +21,7 @@ set -euo pipefail
 mkdir -p "$1"
 folder=$(cd "$1" && pwd)
 
-# Networks fail now and then.
+# Repeats a command that fails, because networks can fail.
 again() {
     local try
     for try in 1 2 3 4; do
@@ -42,14 +42,14 @@ use_suite() {
     }
     printf 'Types: deb-src\nURIs: %s\nSuites: %s\nComponents: main\nSigned-By: %s\n' "$server" "$1" \
         /usr/share/keyrings/debian-archive-keyring.gpg >"$place/parts/source.sources"
-    # A server may be behind: the release is named, so an old list does no harm.
+    # A server may have an old list. That is harmless, because the release is named.
     apt=(-o Dir::Etc::sourcelist=/dev/null -o "Dir::Etc::sourceparts=$place/parts" -o "Dir::State::lists=$place/lists"
         -o "Dir::Cache=$place/cache" -o "Dir::Cache::archives=$place/cache/archives"
         -o Acquire::Check-Valid-Until=false -o Acquire::Retries=3 -o APT::Sandbox::User=)
     again apt-get "${apt[@]}" -qq update
 }
 
-# The source of a release: the newest package of it in a suite, its upstream part only.
+# The source of a release: the upstream part of its newest package in a suite.
 fetch_source() {
     local release=$1 suite=$2 place="$folder/$1" version
     [ ! -e "$place/source/ML_VERSION" ] || return 0
@@ -69,7 +69,7 @@ fetch_source() {
     rm -r "$place/download"
 }
 
-# The module, in an environment of the first Python that there is a build for.
+# The module, in a virtual environment of the first Python for which a build exists.
 fetch_module() {
     local place="$folder/$1/venv" python
     [ ! -e "$place/complete" ] || return 0
@@ -93,5 +93,5 @@ again fetch_module 2022.02 pymeshlab==2022.2.post4 'numpy<2'
 if fetch_source 2025.07 sid; then
     again fetch_module 2025.07 pymeshlab==2025.7.post1 'numpy<3'
 else
-    echo "SKIPPED: MeshLab 2025.07: its source is not to be had any more"
+    echo "SKIPPED: MeshLab 2025.07: its source is no longer available"
 fi

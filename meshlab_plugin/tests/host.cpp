@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/* A host without windows: loads the plugin as MeshLab does, and tests what no script can see: progress, cancelling,
- * deleted elements, flags, and data that is only there when it is enabled.
+/* A host without windows. It loads the plugin as MeshLab does, and tests what scripts cannot test: progress,
+ * cancellation, deleted elements, flags, and optional data.
  *
  *     host PLUGIN
  */
@@ -29,12 +29,12 @@ void check(bool holds, const std::string& what) {
     failures += holds ? 0 : 1;
 }
 
-/* What the callback saw, and what it answers. */
+/* Calls of the callback, and its answer. */
 struct Seen {
     std::vector<int> positions;
     bool is_other_thread = false;
     std::thread::id thread;
-    /* At this call it answers false; 0: never. */
+    /* It answers false at this call; 0: never. */
     std::size_t stop_at = 0;
     bool throws = false;
 } seen;
@@ -84,7 +84,7 @@ MeshModel& sheet(MeshDocument& document, int side) {
     return model;
 }
 
-/* Everything that a filter could change. */
+/* All data that a filter could change. */
 std::vector<double> contents(const CMeshO& m, std::size_t vertices, std::size_t faces) {
     std::vector<double> all;
     for (std::size_t i = 0; i < vertices; ++i) {
@@ -149,7 +149,7 @@ void test_progress(const Host& host) {
     check(model.cm.fn == static_cast<int>(model.cm.face.size()), "the host's count of faces is right");
 }
 
-void test_cancelling(const Host& host) {
+void test_cancellation(const Host& host) {
     for (const std::size_t at : {std::size_t(1), std::size_t(3)}) {
         MeshDocument document;
         MeshModel& model = sheet(document, 160);
@@ -167,7 +167,7 @@ void test_cancelling(const Host& host) {
                                                  ", after " + std::to_string(seconds) + " s");
         check(seen.positions.size() == at, "the host is not asked again");
         check(contents(model.cm, model.cm.vert.size(), model.cm.face.size()) == before, "the mesh is as it was");
-        // And the plugin works on.
+        // The plugin still works.
         start_to_look();
         check(host.fill(document, nullptr, "flat").at("closed_holes").toInt() == 400, "the next call fills 400 holes");
     }
@@ -326,7 +326,7 @@ int main(int count, char** arguments) {
         Host::number_of_flat = method.enumvalues.indexOf("flat");
         check(parameters.getEnum("Method") == Host::number_of_auto, "auto is the default");
         test_progress(host);
-        test_cancelling(host);
+        test_cancellation(host);
         test_exceptions(host);
         test_deleted_elements(host);
         test_flags_and_enabled_data(host);

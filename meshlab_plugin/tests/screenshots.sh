@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Pictures of the plugin in MeshLab's own windows: the menu, the dialog, a mesh before and after.
+# Makes pictures of the plugin in MeshLab's windows: the menu, the dialog, a mesh before and after.
 #
 #     meshlab_plugin/tests/screenshots.sh FOLDER MESH.ply PICTURES
 #
-# As root on Debian, with debootstrap, cmake and what building the plugin needs. Sets up Debian's development suite with
-# MeshLab 2025.07 in FOLDER/gui, about 1 GB, builds the plugin for it in single precision, and works MeshLab on a
-# screen in memory by keys and mouse. It takes some minutes, once. It is no test: places of menus and buttons are those
-# of this release on a screen of 1280 by 900, and the mesh is turned half round. Look at the pictures.
+# Run it as root on Debian, with debootstrap, cmake and the build dependencies of the plugin. It installs Debian's
+# development suite with MeshLab 2025.07 in FOLDER/gui, about 1 GB. It builds the plugin in single precision, and
+# controls MeshLab by mouse on a virtual screen. The first run takes some minutes. This is not a test: positions of menus
+# and buttons are those of this release on a screen of 1280 by 900. Look at the pictures.
 set -euo pipefail
 
 [ $# = 3 ] || {
@@ -20,7 +20,7 @@ mkdir -p "$1" "$3"
 folder=$(cd "$1" && pwd)
 system="$folder/gui/sid"
 library="$system/usr/lib/x86_64-linux-gnu/meshlab/libmeshlab-common.so"
-# The home of who works MeshLab, inside that system.
+# The home folder of MeshLab's user inside that system.
 desk="$system/srv"
 plugins="$desk/.local/share/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins/2025.07"
 
@@ -32,7 +32,7 @@ if [ ! -e "$library" ]; then
     debootstrap --variant=minbase sid "$system" "$server"
     cp /etc/resolv.conf "$system/etc/resolv.conf"
     chroot "$system" apt-get -o Acquire::Check-Valid-Until=false update
-    # The last four are MeshLab's; without them it begins with a message of errors.
+    # MeshLab needs the last four; without them it shows errors when it starts.
     DEBIAN_FRONTEND=noninteractive chroot "$system" apt-get install -y --no-install-recommends meshlab xvfb openbox \
         xdotool imagemagick libgl1-mesa-dri fonts-dejavu-core libmuparser2v5 libqhull-r8.0 lib3ds-1-3 libopenctm1
 fi
@@ -66,7 +66,7 @@ sleep 10
 picture() { import -window root -crop "$2" +repage "$1.png"; }
 at() { xdotool mousemove "$1" "$2"; sleep 1; }
 click() { at "$1" "$2"; xdotool click 1; sleep 2; }
-# From left to right over the mesh: turns it by about 60 degrees.
+# Drags the mouse from left to right over the mesh: turns it by about 60 degrees.
 turn() {
     at 300 477
     xdotool mousedown 1

@@ -31,7 +31,7 @@ LIMIT = 300
 
 
 def write_ply(path, positions, triangles, colors):
-    """Binary, double precision, as the cases are."""
+    """Writes a binary file in double precision, like the cases."""
     fields = [("position", "<f8", 3)] + ([("color", "u1", 3)] if colors is not None else [])
     vertices = np.empty(len(positions), fields)
     vertices["position"] = positions
@@ -74,7 +74,7 @@ def rims(triangles, edges):
 
 
 def turn(owner, triangles, edge):
-    """The boundary edge after `edge`, round its end through the faces there."""
+    """The boundary edge after `edge`. Walks through the faces at its end."""
     index, vertex = owner[edge], edge[1]
     while True:
         face = triangles[index].tolist()
@@ -85,7 +85,7 @@ def turn(owner, triangles, edge):
 
 
 def fill(case, name, output):
-    """In a process of its own: fills and prints the seconds."""
+    """Runs in a separate process: fills and prints the seconds."""
     import pymeshlab as ml
     ml.load_plugin(os.path.abspath(os.environ["HOLEFILL_PLUGIN"]))
     with open(os.path.join(case, "meta.json")) as file:

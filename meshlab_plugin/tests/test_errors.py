@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Errors arrive as exceptions that say what is wrong, the mesh stays, and nothing crashes or leaks."""
+"""Errors are exceptions that say what is wrong. The mesh stays, and nothing crashes or leaks."""
 import ctypes
 import gc
 import os
@@ -17,7 +17,7 @@ class MallocInfo(ctypes.Structure):
 
 
 def live_memory():
-    """Bytes that were allocated and not freed, by all threads."""
+    """Bytes that all threads have allocated and not freed."""
     mallinfo = ctypes.CDLL(None).mallinfo2
     mallinfo.restype = MallocInfo
     info = mallinfo()
@@ -25,7 +25,7 @@ def live_memory():
 
 
 def resident_memory():
-    """Bytes of the process that are in memory, with what the allocator keeps for later."""
+    """Resident bytes of the process, with those that the allocator keeps for later."""
     with open("/proc/self/statm") as file:
         return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
@@ -43,7 +43,7 @@ class Errors(unittest.TestCase):
 
     def test_unknown_method(self):
         self.refused("no-such", method="no-such", error=ml.InvalidEnumException)
-        # PyMeshLab itself lets one number too many pass.
+        # PyMeshLab itself accepts one number too many.
         for number in (-1, len(methods()), 99):
             self.refused("", method=number, error=(ml.InvalidEnumException, ml.PyMeshLabException))
 
@@ -138,7 +138,7 @@ class Irregular(unittest.TestCase):
         self.assertEqual(result["new_faces"], ms.current_mesh().face_number() - len(triangles))
 
     def test_intersecting_patches_can_be_refused(self):
-        # A strip of surface lies across the hole: whatever fills it runs into the strip.
+        # A strip of surface lies across the hole: every patch intersects the strip.
         positions, triangles = torus(blocks=((2, 2, 6),))
         middle = positions[np.unique(triangles[list(rim_faces(triangles)[0])])].mean(axis=0)
         across = np.array([middle - 2, middle + 2, middle + [2, 2, -2]])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Fill Holes (holefill) makes is what the library makes, and everything that was there stays."""
+"""Fill Holes (holefill) gives the results of the library, and keeps all existing elements."""
 import unittest
 
 import numpy as np
@@ -11,7 +11,7 @@ from common import (FILL, HAS_POINT_ATTRIBUTES, boundary_edges, case, fill_by_li
 
 class Filled(unittest.TestCase):
     def assert_as_library(self, ms, **choice):
-        """Fills the current mesh by the filter; the result is the library's, bit for bit."""
+        """Fills the current mesh by the filter. The result must be that of the library, bit for bit."""
         before = ms.current_mesh()
         positions, triangles = before.vertex_matrix(), before.face_matrix()
         names = {"max_edges": "maxholesize", "max_perimeter": "maxperimeter", "keep_largest": "keeplargest"}
@@ -23,7 +23,7 @@ class Filled(unittest.TestCase):
         mesh = ms.current_mesh()
         np.testing.assert_array_equal(mesh.face_matrix(), expected_triangles)
         np.testing.assert_array_equal(mesh.vertex_matrix(), expected_positions)
-        # What was there is a part of it.
+        # The existing elements come first, unchanged.
         np.testing.assert_array_equal(mesh.vertex_matrix()[:len(positions)], positions)
         np.testing.assert_array_equal(mesh.face_matrix()[:len(triangles)], triangles)
         self.assertEqual(result["new_vertices"], len(expected_positions) - len(positions))
@@ -211,7 +211,7 @@ class Values(unittest.TestCase):
         mesh = ms.current_mesh()
         after = values_of(mesh)
         x, y, z = mesh.vertex_matrix()[vertices:].T
-        # These are linear in the position, and so is what is continued, but for rounding to a byte.
+        # These are linear in the position. So are the interpolated values, except for rounding to a byte.
         np.testing.assert_allclose(after["vertex quality"][vertices:], 2 * x + y, atol=1e-3)
         np.testing.assert_allclose(after["height"][vertices:], x - 3 * z, atol=1e-3)
         if HAS_POINT_ATTRIBUTES:
@@ -223,14 +223,14 @@ class Values(unittest.TestCase):
         self.assertTrue((after["region"][faces:] == 7).all())
         np.testing.assert_array_equal(after["face color"][faces:], np.tile(after["face color"][0], (len(after["face"]) - faces, 1)))
         self.assertTrue((np.isin(after["face quality"][faces:], np.arange(faces))).all())
-        # Each corner has the coordinates of its place.
+        # The coordinates of a corner depend on its position.
         corners = after["face"][faces:].reshape(-1)
         places = mesh.vertex_matrix()[corners]
         wedges = after["wedge texture"][3 * faces:]
         np.testing.assert_allclose(wedges[:, 0], places[:, 0] / 10 + 0.5, atol=1e-4)
         np.testing.assert_allclose(wedges[:, 1], places[:, 2] / 4 + 0.5, atol=1e-4)
 
-    def test_normals_point_outwards(self):
+    def test_normals_point_outward(self):
         ms = mesh_set(*torus())
         vertices, faces = ms.current_mesh().vertex_number(), ms.current_mesh().face_number()
         ms.apply_filter(FILL)
@@ -238,13 +238,13 @@ class Values(unittest.TestCase):
         p = mesh.vertex_matrix()
         ring = p * [1, 1, 0]
         ring *= 3 / np.linalg.norm(ring, axis=1)[:, None]
-        outwards = p - ring
-        outwards /= np.linalg.norm(outwards, axis=1)[:, None]
+        outward = p - ring
+        outward /= np.linalg.norm(outward, axis=1)[:, None]
         normals = mesh.vertex_normal_matrix()
         normals = normals / np.linalg.norm(normals, axis=1)[:, None]
-        self.assertGreater((normals * outwards).sum(axis=1).min(), 0.9)
+        self.assertGreater((normals * outward).sum(axis=1).min(), 0.9)
         corner = mesh.face_matrix()[faces:, 0]
-        self.assertGreater((mesh.face_normal_matrix()[faces:] * outwards[corner]).sum(axis=1).min(), 0.8)
+        self.assertGreater((mesh.face_normal_matrix()[faces:] * outward[corner]).sum(axis=1).min(), 0.8)
         np.testing.assert_allclose(np.linalg.norm(mesh.face_normal_matrix(), axis=1), 1, atol=1e-9)
         self.assertEqual(len(normals), len(p))
         self.assertGreater(len(p), vertices)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which holes are filled: selection and size; the filters that select rims and list holes."""
+"""Which holes are filled, by selection and size. The filters that select rims and list holes."""
 import unittest
 
 import numpy as np
@@ -54,7 +54,7 @@ class Rules(unittest.TestCase):
         self.filled([], keeplargest=7)
 
     def test_rules_together(self):
-        # The largest is kept whatever else is chosen, as in the library.
+        # The largest stays open even if other rules choose it, as in the library.
         self.filled([12], keeplargest=1, maxholesize=12)
         ms = self.filled([16], keeplargest=1, maxholesize=20, selected=True, ms=self.selected(1))
         positions, triangles = torus()

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::str::FromStr;
 
-/// Fills holes in triangle meshes, loop by loop, without touching the rest of the mesh.
+/// Fills holes in triangle meshes. The rest of the mesh stays as it is.
 #[derive(Debug, Parser)]
 #[command(name = "holefill", version, after_help = EXIT_STATUS)]
 struct Cli {
@@ -17,9 +17,9 @@ struct Cli {
 }
 
 const EXIT_STATUS: &str = "\
-Files: .ply, .obj, .off and .stl, by extension.
+The extension of a file tells its format: .ply, .obj, .off or .stl.
 Exit status: 0 done; 1 a file cannot be read or written; 2 bad usage; 3 some holes could not be filled
-(the output is written with the others filled).";
+(the output has the others filled).";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -29,7 +29,7 @@ pub(crate) enum Command {
     Points(PointsArgs),
     /// List the boundary loops of a mesh
     Inspect(InspectArgs),
-    /// Measure how far two meshes are apart
+    /// Measure the distance between two meshes
     Compare(CompareArgs),
     /// Make a damaged model, fill it, and draw a picture of both
     Demo(DemoArgs),
@@ -39,14 +39,14 @@ pub(crate) enum Command {
 pub(crate) struct FillArgs {
     /// Mesh to fill
     pub(crate) input: PathBuf,
-    /// Filled mesh: what INPUT has, unchanged and in order, then what is new.
-    /// Appears whole or not at all; may be INPUT itself, which is then replaced
+    /// Filled mesh: the elements of INPUT, unchanged and in order, then the new ones.
+    /// Written completely or not at all; may be INPUT itself, which is then replaced
     #[arg(short, long, verbatim_doc_comment)]
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) how: FillHow,
-    /// Threads to fill with, at most 1024, 0 for as many as there are processors;
-    /// the result does not depend on it
+    /// Number of threads, at most 1024; 0 takes one for each processor.
+    /// The result does not depend on it
     #[arg(
         long,
         allow_negative_numbers = true,
@@ -56,7 +56,7 @@ pub(crate) struct FillArgs {
         value_parser = clap::value_parser!(u16).range(..=1024)
     )]
     pub(crate) threads: u16,
-    /// Also write what happened to each hole, as JSON (seconds, degrees)
+    /// Also write a report of each hole, as JSON (seconds, degrees)
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,
     /// Also draw the mesh before and after, patches in orange
@@ -73,8 +73,8 @@ pub(crate) struct FillHow {
     /// How to fill; the methods are listed below
     #[arg(long, value_name = "NAME", default_value_t, value_parser = Method::from_str)]
     pub(crate) method: Method,
-    /// Leave the loop through this boundary edge open; can be repeated. It runs from
-    /// vertex V0 to V1 (counted from 0) as in its triangle; see `holefill inspect`
+    /// Leave the loop through this boundary edge open; can be repeated. The edge runs
+    /// from vertex V0 to V1 (counted from 0) as in its triangle; see `holefill inspect`
     #[arg(long, value_name = "V0,V1", value_parser = parse_edge, verbatim_doc_comment)]
     pub(crate) keep: Vec<[u32; 2]>,
     /// Fill only the loop through this edge; can be repeated [default: every loop]
@@ -97,7 +97,7 @@ pub(crate) struct FillHow {
     /// Set a parameter; can be repeated; the parameters are listed below
     #[arg(long, value_name = "KEY=VALUE", value_parser = parse_setting)]
     pub(crate) set: Vec<(String, String)>,
-    /// Seed of the methods that use random numbers
+    /// Seed for methods that use random numbers
     #[arg(
         long,
         allow_negative_numbers = true,
@@ -109,12 +109,12 @@ pub(crate) struct FillHow {
 
 #[derive(Debug, Args)]
 pub(crate) struct PointsArgs {
-    /// Points: a .ply (with or without normals and colors), .xyz or .txt (3, 6 or 9 numbers a line:
-    /// position, normal, color) file, or the vertices of a .obj, .off or .stl file
+    /// Points: a .ply file (with or without normals and colors), a .xyz or .txt file (3, 6 or 9
+    /// numbers a line: position, normal, color), or the vertices of a .obj, .off or .stl file
     #[arg(verbatim_doc_comment)]
     pub(crate) input: PathBuf,
     /// Mesh: the points of INPUT, unchanged and in order, with triangles.
-    /// Appears whole or not at all; may be INPUT itself, which is then replaced
+    /// Written completely or not at all; may be INPUT itself, which is then replaced
     #[arg(short, long, verbatim_doc_comment)]
     pub(crate) output: PathBuf,
     /// Largest radius of the circle through the corners of a triangle, in units of the
@@ -127,7 +127,7 @@ pub(crate) struct PointsArgs {
         verbatim_doc_comment
     )]
     pub(crate) radius: Option<f64>,
-    /// How many of the nearest points each point chooses its triangles from
+    /// Number of nearest points from which each point chooses its triangles
     #[arg(
         long,
         allow_negative_numbers = true,
@@ -139,13 +139,13 @@ pub(crate) struct PointsArgs {
     /// Estimate the normals even if INPUT has them
     #[arg(long)]
     pub(crate) ignore_normals: bool,
-    /// Then fill the holes; the options of `holefill fill` below tell which and how
+    /// Then fill the holes; the options of `holefill fill` below choose holes and method
     #[arg(long)]
     pub(crate) fill: bool,
     #[command(flatten)]
     pub(crate) how: FillHow,
-    /// Threads to work with, at most 1024, 0 for as many as there are processors;
-    /// the result does not depend on it
+    /// Number of threads, at most 1024; 0 takes one for each processor.
+    /// The result does not depend on it
     #[arg(
         long,
         allow_negative_numbers = true,
@@ -155,7 +155,7 @@ pub(crate) struct PointsArgs {
         value_parser = clap::value_parser!(u16).range(..=1024)
     )]
     pub(crate) threads: u16,
-    /// Also write what became of the points, and of the holes, as JSON
+    /// Also write a report of the points and of the holes, as JSON
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,
     /// Print nothing but errors
@@ -177,12 +177,12 @@ const FILL_HOW: [&str; 8] = [
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Perimeter in units of the file, area in its square (norm of the vector area), planarity from 0 (flat)
-to 0.58. EDGE is one directed boundary edge of the loop, as `fill --keep` and `fill --loop` take it.
+PERIMETER is in units of the file, AREA (norm of the vector area) in its square. PLANARITY is from 0 (flat)
+to 0.58. EDGE is one directed boundary edge of the loop, for `fill --keep` and `fill --loop`.
 
 Example: holefill inspect scan.ply")]
 pub(crate) struct InspectArgs {
-    /// Mesh to look at
+    /// Mesh to inspect
     pub(crate) input: PathBuf,
     /// Print JSON instead of a table, with the defects of the mesh and times in seconds
     #[arg(long)]
@@ -206,11 +206,11 @@ pub(crate) struct CompareArgs {
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Writes damaged.ply, filled.ply, preview.png and report.json, replacing older ones.
+Writes damaged.ply, filled.ply, preview.png and report.json. Replaces existing files.
 
 Example: holefill demo")]
 pub(crate) struct DemoArgs {
-    /// Folder for the files; made if it does not exist
+    /// Folder for the files; created if it does not exist
     #[arg(default_value = "holefill-demo")]
     pub(crate) dir: PathBuf,
 }
@@ -242,13 +242,13 @@ fn command() -> clap::Command {
         })
 }
 
-/// Prints what [`parse`] could not go on with: help that was asked for, or an error.
+/// Prints the requested help, or an error of [`parse`].
 pub(crate) fn report_error(error: &clap::Error) -> ExitCode {
     match error.kind() {
         ErrorKind::DisplayHelp
         | ErrorKind::DisplayVersion
         | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
-            // Fails only when nobody reads it.
+            // Fails only if standard output is closed.
             let _ = error.print();
         }
         _ => {
@@ -263,7 +263,9 @@ fn parse_edge(text: &str) -> Result<[u32; 2], String> {
     let vertices = text
         .split_once(',')
         .and_then(|(a, b)| Some([a.parse().ok()?, b.parse().ok()?]));
-    vertices.ok_or_else(|| "an edge is two vertex numbers with a comma, such as 17,42".to_owned())
+    vertices.ok_or_else(|| {
+        "an edge is two vertex numbers with a comma between them, for example 17,42".to_owned()
+    })
 }
 
 fn parse_radius(text: &str) -> Result<f64, String> {
@@ -278,7 +280,7 @@ fn parse_setting(text: &str) -> Result<(String, String), String> {
         .split_once('=')
         .map(|(key, value)| (key.to_owned(), value.to_owned()));
     let (key, value) =
-        pair.ok_or_else(|| "a setting is KEY=VALUE, such as refine.density=2".to_owned())?;
+        pair.ok_or_else(|| "a setting is KEY=VALUE, for example refine.density=2".to_owned())?;
     FillOptions::default()
         .set(&key, &value)
         .map_err(|e| e.to_string())?;

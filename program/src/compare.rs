@@ -1,4 +1,4 @@
-//! `holefill compare`: how far two meshes are apart.
+//! `holefill compare`: the distance between two meshes.
 
 use crate::args::CompareArgs;
 use crate::table::number;
@@ -57,7 +57,7 @@ fn as_table(deviation: &Deviation) -> String {
     if let Some(PointErrors { ape, mpe, vertices }) = &deviation.point_errors {
         let _ = writeln!(
             text,
-            "vertices of A that B does not have: {vertices}, APE {}, MPE {}",
+            "vertices of A that are not in B: {vertices}, APE {}, MPE {}",
             number(*ape),
             number(*mpe)
         );

@@ -1,4 +1,4 @@
-//! `holefill demo`: a damaged model made here, filled like any other.
+//! `holefill demo`: makes a damaged model, and fills it like any other.
 
 use crate::args::{DemoArgs, FillArgs, FillHow};
 use crate::model::damaged_knot;
@@ -9,7 +9,7 @@ use std::fs;
 pub(crate) fn run(args: &DemoArgs) -> Result<Outcome, Failure> {
     let dir = &args.dir;
     fs::create_dir_all(dir)
-        .map_err(|e| Failure::file(format!("cannot make the folder {}: {e}", dir.display())))?;
+        .map_err(|e| Failure::file(format!("cannot create the folder {}: {e}", dir.display())))?;
     let damaged = dir.join("damaged.ply");
     let (positions, triangles) = damaged_knot();
     io::write(&damaged, &MeshData::new(positions, triangles))

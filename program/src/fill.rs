@@ -33,7 +33,7 @@ pub(crate) fn run(args: &FillArgs) -> Result<Outcome, Failure> {
         file,
         seconds,
     } = input::load(&args.input, args.quiet)?;
-    // Before the work starts: what is asked for must exist.
+    // Fails before the work starts if a named loop does not exist.
     selection
         .reasons_to_keep(&boundary)
         .map_err(|e| Failure::usage(e.to_string()))?;
@@ -73,8 +73,7 @@ pub(crate) fn run(args: &FillArgs) -> Result<Outcome, Failure> {
     Ok(Outcome::SomeFailed)
 }
 
-/// Refuses destinations that cannot work, before minutes are spent: those of the mesh and of what is written
-/// `extra`.
+/// Rejects destinations that cannot be written, before the work starts: that of the mesh, and the `extra` files.
 pub(crate) fn check_destinations(
     input: &Path,
     output: &Path,
@@ -98,7 +97,7 @@ pub(crate) fn check_destinations(
     Ok(())
 }
 
-/// Keeps all parallel work, that of reading in the mesh included, to this many threads; 0 is no limit.
+/// Limits all parallel work, also that of reading the mesh, to this many threads; 0 is no limit.
 pub(crate) fn limit_threads(threads: usize) -> Result<(), Failure> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
@@ -127,7 +126,7 @@ pub(crate) fn selection(how: &FillHow) -> Result<Selection, Failure> {
         max_perimeter: how.max_perimeter,
         keep_largest: how.keep_largest,
     };
-    // What is wrong with any mesh is found with an empty one, before the file is read.
+    // Rules that are invalid for every mesh are found with an empty one, before the file is read.
     let rules = Selection {
         only: Vec::new(),
         keep: Vec::new(),
@@ -172,7 +171,7 @@ fn progress_bar(holes: usize) -> ProgressBar {
     }
 }
 
-/// Writes the mesh in the form of the file that it came from, and gives it back.
+/// Writes the mesh with the number types and properties of its input file. Returns the mesh.
 pub(crate) fn write_mesh(
     path: &Path,
     mesh: TriMesh,

@@ -1,4 +1,4 @@
-//! Reading a mesh file, with the times it takes.
+//! Reads a mesh file, and measures the time.
 
 use crate::{Failure, console};
 use holefill::io::{self, MeshData};
@@ -6,7 +6,7 @@ use holefill::{BoundaryLoops, TriMesh};
 use std::path::Path;
 use std::time::Instant;
 
-/// A mesh with its boundary, and what its file said besides.
+/// A mesh with its boundary, and the other contents of its file.
 pub(crate) struct Loaded {
     pub(crate) mesh: TriMesh,
     pub(crate) boundary: BoundaryLoops,
@@ -23,7 +23,7 @@ pub(crate) struct LoadSeconds {
     pub(crate) loops: f64,
 }
 
-/// Reads the file at `path`; its remarks are printed unless `quiet`.
+/// Reads the file at `path`. Prints notes about the file unless `quiet`.
 pub(crate) fn read(path: &Path, quiet: bool) -> Result<MeshData, Failure> {
     let data = io::read(path).map_err(|e| Failure::file(e.to_string()))?;
     if !quiet {
@@ -32,8 +32,8 @@ pub(crate) fn read(path: &Path, quiet: bool) -> Result<MeshData, Failure> {
     Ok(data)
 }
 
-/// Reads the file at `path`, builds the mesh and finds its boundary loops. Remarks on the file and
-/// the defects of the mesh are printed unless `quiet`.
+/// Reads the file at `path`, builds the mesh and finds its boundary loops. Prints notes about the file
+/// and the defects of the mesh unless `quiet`.
 pub(crate) fn load(path: &Path, quiet: bool) -> Result<Loaded, Failure> {
     let start = Instant::now();
     let mut file = read(path, quiet)?;

@@ -1,8 +1,7 @@
-//! The command line program `holefill`: fills the holes of a mesh file, and says what it did.
+//! The command line program `holefill`: fills the holes of a mesh file, and reports the result.
 //!
-//! Exit status: 0 when everything that was asked for is done, 1 when a file cannot be read or
-//! written, 2 for bad usage, 3 when some holes could not be filled. Tables and JSON go to standard
-//! output, everything else to standard error.
+//! Exit status: 0 done, 1 a file cannot be read or written, 2 bad usage, 3 some holes could not be
+//! filled. Tables and JSON go to standard output, everything else to standard error.
 
 mod args;
 mod compare;
@@ -22,19 +21,19 @@ mod view;
 use args::Command;
 use std::process::ExitCode;
 
-/// How a command ended when it ran to its end.
+/// Result of a command that was not aborted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outcome {
-    /// Everything that was asked for is done.
+    /// All requested work is done.
     Complete,
     /// Some holes could not be filled.
     SomeFailed,
 }
 
-/// Why a command could not run to its end.
+/// Reason why a command was aborted.
 #[derive(Debug)]
 enum Failure {
-    /// The command line asks for something that does not exist or makes no sense.
+    /// The command line names something that does not exist, or is invalid.
     Usage(String),
     /// A file cannot be read or written.
     File(String),

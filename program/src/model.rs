@@ -1,7 +1,7 @@
 //! A model with holes, made by formula: a fluted tube along a (2,3) torus knot.
 //!
-//! Its holes are one of each kind that scans have: a large one, one with a loose island, one round most
-//! of the tube, a long crack, two that touch in a vertex, and small ones scattered about.
+//! It has one hole of each kind that scans have: a large one, one with a loose island, one round most
+//! of the tube, a long crack, two that touch in a vertex, and small ones at random places.
 
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
@@ -11,22 +11,22 @@ type Vec3 = Vector3<f64>;
 /// Vertices along the knot and round the tube.
 const ALONG: usize = 900;
 const AROUND: usize = 72;
-/// Radius of the torus that the knot winds round, and how far the knot is from its core.
+/// Radius of the torus that the knot winds round, and distance of the knot from the core of the torus.
 const TORUS_RADIUS: f64 = 2.0;
 const KNOT_RADIUS: f64 = 0.95;
 const TUBE_RADIUS: f64 = 0.46;
-/// Vertices are moved by up to this share of the grid, so that rims are as uneven as a scan's.
+/// Vertices are moved by up to this share of the grid spacing, so that rims are as irregular as in a scan.
 const UNEVENNESS: f64 = 0.22;
 const SMALL_HOLES: usize = 26;
 
-/// A place on the tube: how far along the knot, 0 to 1, and the angle round it.
+/// A place on the tube: its position along the knot, 0 to 1, and the angle round it.
 #[derive(Clone, Copy)]
 struct Place {
     along: f64,
     angle: f64,
 }
 
-/// The knot's center line with what is needed to walk along it at even speed.
+/// The center line of the knot, with a table for equal steps of length.
 struct Knot {
     length: f64,
     /// Parameters at equal steps of length, the first one again at the end.
@@ -64,7 +64,7 @@ impl Knot {
         self.parameters[i] * (1.0 - share) + self.parameters[i + 1] * share
     }
 
-    /// How far along the knot a parameter is.
+    /// The position of a parameter along the knot.
     fn along(&self, parameter: f64) -> f64 {
         self.parameters.partition_point(|&t| t < parameter) as f64 / ALONG as f64
     }
@@ -86,7 +86,7 @@ impl Knot {
         center + (outward * cos + sideward * sin) * radius(place)
     }
 
-    /// The place beside the center line that looks along z, where the picture is taken from.
+    /// The place of the tube at this parameter that faces along z, toward the viewer of the picture.
     fn facing(&self, parameter: f64) -> Place {
         let along = self.along(parameter);
         let [_, outward, sideward] = self.frame(along);
@@ -96,7 +96,7 @@ impl Knot {
         }
     }
 
-    /// The way from `center` to `place` on the surface: along the tube, and round it.
+    /// The distance from `center` to `place` on the surface: along the tube, and round it.
     fn offset(&self, center: Place, place: Place) -> [f64; 2] {
         let wrapped = |d: f64| d - d.round();
         [
@@ -106,14 +106,14 @@ impl Knot {
     }
 }
 
-/// The tube swells three times, and carries flutes that wind round it.
+/// The radius of the tube: it swells three times, and has flutes that wind round it.
 fn radius(place: Place) -> f64 {
     let swell = 1.0 + 0.13 * (3.0 * TAU * place.along).cos();
     let flutes = 1.0 + 0.07 * (5.0 * place.angle + 17.0 * TAU * place.along).sin();
     TUBE_RADIUS * swell * flutes
 }
 
-/// A number from -1 to 1 that depends on `key` in no visible way (the finalizer of splitmix64).
+/// A pseudo-random number from -1 to 1 for `key` (the finalizer of splitmix64).
 fn scatter(key: u64) -> f64 {
     let mut z = key.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -193,7 +193,7 @@ fn is_in_touching_holes(cell: [usize; 2], corner: [usize; 2]) -> bool {
         }
     };
     let [x, y] = [from_corner(0, ALONG), from_corner(1, AROUND)];
-    // Circles through the corner, each in a quarter of its own.
+    // Circles through the corner, each in its own quadrant.
     (x * y > 0.0)
         && [4.5, -4.0]
             .iter()
@@ -250,7 +250,7 @@ pub(crate) fn damaged_knot() -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     without_unused(point, triangles)
 }
 
-/// The points that `triangles` use, which are numbered anew.
+/// The points that `triangles` use. The triangles get the new indices.
 fn without_unused(
     point: impl Fn(u32) -> [f64; 3],
     mut triangles: Vec<[u32; 3]>,

@@ -1,4 +1,4 @@
-//! `holefill points`: reads points, makes a mesh of them, fills its holes if asked to, writes it.
+//! `holefill points`: reads points, makes a mesh of them, optionally fills its holes, and writes it.
 
 use crate::args::PointsArgs;
 use crate::fill::{
@@ -87,7 +87,7 @@ pub(crate) fn run(args: &PointsArgs) -> Result<Outcome, Failure> {
     outcome(&boundary, holes.as_ref(), args.quiet)
 }
 
-/// Moves the points out of `file`, with their normals unless these are to be ignored.
+/// Moves the points out of `file`, with their normals unless `ignore_normals` is set.
 fn take_points(file: &mut MeshData, ignore_normals: bool) -> PointCloud {
     let normals = if ignore_normals {
         None
@@ -119,15 +119,12 @@ fn summary(points: &PointReport, loops: usize) -> Vec<String> {
     )];
     if points.duplicates > 0 {
         lines.push(format!(
-            "{} points lie at the place of an earlier one and are used by no triangle",
+            "{} points have the same position as an earlier one; no triangle uses them",
             points.duplicates
         ));
     }
     if points.unused > 0 {
-        lines.push(format!(
-            "{} other points are used by no triangle",
-            points.unused
-        ));
+        lines.push(format!("no triangle uses {} other points", points.unused));
     }
     lines
 }

@@ -1,8 +1,8 @@
 //! A picture of a mesh before and after its holes were filled.
 //!
-//! A small renderer: parallel projection, z-buffer, smooth shading with a key light, a fill light and
-//! light from the surroundings that does not reach into hollows, four samples per pixel. The insides
-//! of the surface are tinted, so that holes are seen.
+//! A small renderer: parallel projection, z-buffer, smooth shading, four samples per pixel. It has a key
+//! light, a fill light, and ambient light that is weaker in hollows. The inside of the surface has
+//! another color, so that holes are visible.
 
 use crate::raster::{Canvas, NOTHING, barycentric};
 use crate::view::{self, View, area_normal};
@@ -13,13 +13,13 @@ use std::ops::Range;
 
 type Vec3 = Vector3<f32>;
 
-/// Height of the picture in pixels; it is two such squares wide.
+/// Height of the picture in pixels; its width is twice this.
 const HEIGHT: usize = 800;
 /// Samples per pixel along each axis.
 const SAMPLES: usize = 2;
 const SIZE: usize = HEIGHT * SAMPLES;
 
-/// Colors, linear: what they are when fully lit.
+/// Linear colors at full light.
 const MESH: Vec3 = Vec3::new(0.47, 0.49, 0.52);
 const MESH_INSIDE: Vec3 = Vec3::new(0.10, 0.17, 0.30);
 const PATCH: Vec3 = Vec3::new(0.80, 0.245, 0.03);
@@ -27,7 +27,7 @@ const PATCH_INSIDE: Vec3 = Vec3::new(0.42, 0.10, 0.02);
 const BACKGROUND_TOP: Vec3 = Vec3::new(0.95, 0.96, 0.97);
 const BACKGROUND_BOTTOM: Vec3 = Vec3::new(0.72, 0.75, 0.79);
 
-/// Lights: where from (right, up, towards the eye) and how bright.
+/// Lights: direction (right, up, toward the eye) and brightness.
 const KEY: (Vec3, f32) = (Vec3::new(-0.50, 0.62, 0.60), 1.0);
 const FILL: (Vec3, f32) = (Vec3::new(0.77, 0.06, 0.63), 0.22);
 const AMBIENT_ABOVE: f32 = 0.30;
@@ -35,9 +35,9 @@ const AMBIENT_BELOW: f32 = 0.13;
 const HIGHLIGHT: f32 = 0.10;
 const HIGHLIGHT_EXPONENT: i32 = 36;
 
-/// Corner normals that are farther from their triangle's than this show an edge, not a round: cos 40°.
+/// Cosine of 40°: corner normals with a larger angle to the normal of their triangle are at a sharp edge.
 const SMOOTH_COSINE: f32 = 0.766;
-/// How far hollows are searched for, in samples.
+/// Radius, in samples, in which hollows are searched.
 const HOLLOW_RADIUS: f32 = SIZE as f32 * 0.035;
 const HOLLOW_PAIRS: usize = 12;
 const GOLDEN_ANGLE: f32 = 2.399_963;
@@ -66,7 +66,7 @@ pub(crate) fn draw(scene: &Scene<'_>) -> Picture {
         first_new,
         ..
     } = *scene;
-    let points = centred(scene.positions, triangles);
+    let points = centered(scene.positions, triangles);
     let view = view::choose(&points, triangles, first_new, scene.patches);
     let places = view.project(&points, triangles, SIZE);
     let mut before = Canvas::new(SIZE);
@@ -106,8 +106,8 @@ pub(crate) fn write_png(picture: &Picture, out: impl io::Write) -> io::Result<()
     Ok(writer.finish()?)
 }
 
-/// The points about the origin, with an extent of about one, whatever their units.
-fn centred(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<Vec3> {
+/// The points, moved to the origin and scaled to an extent of about one.
+fn centered(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     let (mut low, mut high) = ([f64::MAX; 3], [f64::MIN; 3]);
     for &v in triangles.iter().flatten() {
         for k in 0..3 {
@@ -144,7 +144,7 @@ fn direction(v: &Vec3) -> Vec3 {
     v.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
 }
 
-/// All that is needed to light a sample.
+/// The data to light a sample.
 struct Surface<'a> {
     points: &'a [Vec3],
     places: Vec<Vec3>,
@@ -207,8 +207,8 @@ impl Surface<'_> {
     }
 }
 
-/// How much of the light from the surroundings is kept from a sample, 0 to 1, judged by pairs of opposite
-/// neighbours that are both nearer to the eye on the whole: on a plane they cancel, however it is tilted.
+/// The share of the ambient light that does not reach a sample, 0 to 1. It is estimated from pairs of opposite
+/// neighbors whose mean is nearer to the eye. On a plane the two cancel, at any tilt.
 fn hollow(canvas: &Canvas, x: usize, y: usize) -> f32 {
     let here = canvas.depth(x as isize, y as isize);
     let rise = |dx: f32, dy: f32| {
@@ -218,7 +218,7 @@ fn hollow(canvas: &Canvas, x: usize, y: usize) -> f32 {
         );
         (here - there).clamp(-HOLLOW_RADIUS, HOLLOW_RADIUS)
     };
-    // The samples of a pixel look in different directions, which together leave no bands.
+    // The samples of a pixel use different directions, so that no bands are visible.
     let first = (x % SAMPLES + SAMPLES * (y % SAMPLES)) as f32 / (SAMPLES * SAMPLES) as f32;
     let mut sum = 0.0;
     for k in 0..HOLLOW_PAIRS {
@@ -231,7 +231,7 @@ fn hollow(canvas: &Canvas, x: usize, y: usize) -> f32 {
     (HOLLOW_STRENGTH * sum / HOLLOW_PAIRS as f32).min(0.8)
 }
 
-/// The value that a screen shows as this brightness (sRGB).
+/// The sRGB value of this brightness.
 fn screen_value(linear: f32) -> f32 {
     let linear = linear.clamp(0.0, 1.0);
     if linear <= 0.003_130_8 {

@@ -1,9 +1,9 @@
-//! Which triangle is seen at each sample: a z-buffer.
+//! A z-buffer: the visible triangle at each sample.
 
 use nalgebra::Vector3;
 use std::ops::Range;
 
-/// The triangle of a sample that shows none.
+/// Marks a sample without a triangle.
 pub(crate) const NOTHING: u32 = u32::MAX;
 
 /// A square of samples, each with the nearest triangle and its distance.
@@ -28,7 +28,7 @@ impl Canvas {
         &self.faces
     }
 
-    /// The distance at a sample, infinite where nothing is and outside.
+    /// The distance at a sample; infinite without a triangle, and outside the picture.
     pub(crate) fn depth(&self, x: isize, y: isize) -> f32 {
         let inside = 0..self.size as isize;
         if inside.contains(&x) && inside.contains(&y) {
@@ -71,7 +71,7 @@ impl Canvas {
         }
     }
 
-    /// The samples whose centres lie within the range of three coordinates.
+    /// The samples whose centers lie within the range of three coordinates.
     fn samples_between(&self, values: [f32; 3]) -> Range<usize> {
         let low = values.into_iter().fold(f32::INFINITY, f32::min);
         let high = values.into_iter().fold(f32::NEG_INFINITY, f32::max);
@@ -81,9 +81,9 @@ impl Canvas {
     }
 }
 
-/// The weights of the corners at the centre of a sample, if it lies in the triangle.
+/// The weights of the corners at the center of a sample, if it lies in the triangle.
 ///
-/// Double precision: a sample on an edge that two triangles share must be in one of them.
+/// Double precision, because a sample on a common edge of two triangles must be in one of them.
 pub(crate) fn barycentric(
     corners: &[Vector3<f32>; 3],
     column: usize,

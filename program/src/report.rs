@@ -1,10 +1,10 @@
-//! The JSON forms of what the tables show.
+//! The JSON forms of the tables.
 
 use crate::table::area;
 use holefill::{BoundaryLoop, FillReport, MeshDefects};
 use serde_json::{Value, json};
 
-/// What a fill did, besides the holes themselves.
+/// Facts about a fill, without those about its holes.
 pub(crate) struct FillFacts {
     /// Vertices and triangles of the input.
     pub(crate) input: [usize; 2],
@@ -16,9 +16,9 @@ pub(crate) struct FillFacts {
     pub(crate) build_seconds: f64,
     /// Seconds to write the output.
     pub(crate) write_seconds: f64,
-    /// Threads that filled.
+    /// Number of threads.
     pub(crate) threads: usize,
-    /// The seed that was asked for.
+    /// The seed from the command line.
     pub(crate) seed: u64,
 }
 
@@ -54,7 +54,7 @@ pub(crate) fn boundary_loop(l: &BoundaryLoop) -> Value {
     })
 }
 
-/// The number of defects of each kind, with the first places.
+/// The number of defects of each kind, with the first examples.
 pub(crate) fn defects(defects: &MeshDefects) -> Value {
     json!({
         "nonmanifold_edges": kind(defects.nonmanifold_edges.count, &defects.nonmanifold_edges.examples),

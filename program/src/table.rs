@@ -1,14 +1,14 @@
-//! Tables for people: aligned columns, short numbers.
+//! Tables for humans: aligned columns, short numbers.
 
 use holefill::{BoundaryLoop, FillReport, HoleReport, HoleStatus};
 use std::fmt::Write;
 
-/// A report of more holes than this is shown in part.
+/// A report of more holes than this is not shown completely.
 const ALL_ROWS: usize = 20;
-/// Of a long report, so many of the largest holes are shown.
+/// Number of largest holes that are shown of a long report.
 const LARGEST_ROWS: usize = 5;
 
-/// Rows under headings; the columns whose heading starts with a space are aligned to the right.
+/// Rows under headings. Columns whose heading starts with a space are aligned to the right.
 struct Table {
     rows: Vec<Vec<String>>,
 }
@@ -49,7 +49,7 @@ impl Table {
     }
 }
 
-/// A length or area in about five digits.
+/// A length or area with about five digits.
 pub(crate) fn number(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 {
@@ -91,13 +91,13 @@ pub(crate) fn loops(loops: &[BoundaryLoop]) -> String {
     table.render()
 }
 
-/// The norm of the vector area; scaled, so that its squares do not overflow.
+/// The norm of the vector area. It is scaled so that its squares do not overflow.
 pub(crate) fn area(l: &BoundaryLoop) -> f64 {
     let [x, y, z] = l.vector_area;
     x.hypot(y).hypot(z)
 }
 
-/// One row for each hole, or for the failed and the largest ones of many, and a line that counts.
+/// One row for each hole (of many holes, for the failed and the largest ones), and a line with the counts.
 pub(crate) fn holes(report: &FillReport) -> String {
     if report.holes.is_empty() {
         return "no holes\n".to_owned();
@@ -139,8 +139,8 @@ fn hole_row(hole: &HoleReport) -> Vec<String> {
     ]
 }
 
-/// Indices of the holes to show, in order: all of a few, else those that failed (the first of them)
-/// and the largest ones.
+/// Indices of the holes to show, in order: all if there are few, otherwise the first failed ones and the
+/// largest ones.
 fn shown_holes(holes: &[HoleReport]) -> Vec<usize> {
     if holes.len() <= ALL_ROWS {
         return (0..holes.len()).collect();
@@ -164,7 +164,7 @@ fn shown_holes(holes: &[HoleReport]) -> Vec<usize> {
     shown
 }
 
-/// The count of holes by how they ended, such as `635 holes: 633 filled, 2 failed`.
+/// The counts of holes by status, for example `635 holes: 633 filled, 2 failed`.
 pub(crate) fn summary(report: &FillReport) -> String {
     let total = report.holes.len();
     let statuses = [

@@ -1,4 +1,4 @@
-//! Where to look from: the direction that shows most of the patches.
+//! Finds the view direction that shows most of the patches.
 
 use crate::raster::Canvas;
 use nalgebra::Vector3;
@@ -7,24 +7,24 @@ use std::ops::Range;
 
 type Vec3 = Vector3<f32>;
 
-/// Directions that are looked along besides those of the largest patches.
+/// Number of view directions, without those of the largest patches.
 const DIRECTIONS: usize = 96;
-/// Directions that are tried out by drawing the mesh.
+/// Number of directions that are tried by drawing the mesh.
 const TRIALS: usize = 6;
 /// Width of a trial drawing in samples.
 const TRIAL_SIZE: usize = 192;
-/// The largest patches whose own normals are tried.
+/// Number of largest patches whose normals are tried.
 const LARGEST_PATCHES: usize = 2;
-/// Patch triangles that are looked at to choose the trials; of more, every nth one.
+/// Largest number of patch triangles that are used to choose the trials; of more, every nth one.
 const CHOICE_TRIANGLES: usize = 100_000;
-/// Views from straight above or below count this much less: they hide which way is up.
+/// Share by which views from straight above or below count less: they do not show which direction is up.
 const STEEP_VIEW_MALUS: f32 = 0.2;
-/// Where to look from when there is no patch to look at.
+/// The view direction if there is no patch.
 const USUAL: Vec3 = Vec3::new(0.45, 0.3, 0.84);
-/// Share of the picture that is left free on each side.
+/// Share of the picture that stays empty on each side.
 const MARGIN: f32 = 0.06;
 
-/// A parallel projection: axes to the right, up, and towards the eye; then scaled and centred.
+/// A parallel projection: axes to the right, up, and toward the eye; then scaled and centered.
 pub(crate) struct View {
     axes: [Vec3; 3],
 }
@@ -32,19 +32,19 @@ pub(crate) struct View {
 impl View {
     /// Looks at the origin from the direction `from`, y up.
     pub(crate) fn new(from: Vec3) -> Self {
-        let towards = from.try_normalize(0.0).unwrap_or_else(Vec3::z);
-        let up = if towards.y.abs() < 0.99 {
+        let toward = from.try_normalize(0.0).unwrap_or_else(Vec3::z);
+        let up = if toward.y.abs() < 0.99 {
             Vec3::y()
         } else {
             Vec3::z()
         };
-        let right = up.cross(&towards).normalize();
+        let right = up.cross(&toward).normalize();
         Self {
-            axes: [right, towards.cross(&right), towards],
+            axes: [right, toward.cross(&right), toward],
         }
     }
 
-    /// The components of a direction to the right, up, and towards the eye.
+    /// The components of a direction to the right, up, and toward the eye.
     pub(crate) fn turn(&self, v: &Vec3) -> Vec3 {
         Vec3::new(
             self.axes[0].dot(v),
@@ -53,8 +53,8 @@ impl View {
         )
     }
 
-    /// Projects `points` to a picture of `size` x `size` samples, y down, z growing away from the eye
-    /// (also in samples). The points that `triangles` name fill the picture.
+    /// Projects `points` to a picture of `size` x `size` samples. y points down, z away from the eye (also
+    /// in samples). The points that `triangles` use fill the picture.
     pub(crate) fn project(
         &self,
         points: &[Vec3],
@@ -121,7 +121,7 @@ pub(crate) fn choose(
             (count as f32 * (1.0 - STEEP_VIEW_MALUS * d.y.abs()), view)
         })
         .collect();
-    // The first of the best, and none that shows nothing.
+    // The first of the best views; none if no view shows a patch.
     let best = tried.into_iter().rev().max_by(|a, b| a.0.total_cmp(&b.0));
     best.filter(|(score, _)| *score > 0.0)
         .map_or_else(|| View::new(USUAL), |(_, view)| view)

@@ -1,14 +1,14 @@
 //! What kind of boundary a loop is: a hole, a hole that touches another, a loose island, an outer rim.
 
-use super::loops::BoundaryLoop;
+use super::boundary_loop::{BoundaryLoop, LoopClass};
 use crate::job::Job;
 use crate::math::aabb::Aabb;
 use crate::math::box_tree::BoxTree;
+use crate::math::frame::axes_across;
 use crate::math::{Vec3, cross_normal, unit};
-use crate::mesh::connectivity::{BOUNDARY, DEGENERATE};
+use crate::mesh::halfedge::{BOUNDARY, DEGENERATE};
 use crate::mesh::trimesh::TriMesh;
 use std::collections::BTreeSet;
-use std::fmt;
 
 /// A loop counts as an outer rim when the mean cosine between its vector area and the normals along it is
 /// above this; a flat sheet has 1.
@@ -18,49 +18,6 @@ const ISLAND_FACES_PER_SQUARED_EDGE: usize = 8;
 /// An island's rim lies within the box of the hole, enlarged by this share of its diagonal: that is how high
 /// half a sphere stands over its rim.
 const ISLAND_BOX_MARGIN: f64 = 0.36;
-
-/// The kind of a boundary loop.
-///
-/// [`LoopClass::Island`] and [`LoopClass::OuterRim`] are judgements from geometry, meant as advice; they
-/// can be wrong on strongly curved sheets.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[non_exhaustive]
-pub enum LoopClass {
-    /// The rim of a hole that touches no other loop.
-    Simple,
-    /// The rim of a hole that shares a vertex with another loop.
-    Touching,
-    /// The rim of a small sheet of its own that lies inside the hole of another loop.
-    Island,
-    /// The outer rim of an open sheet.
-    OuterRim,
-    /// The triangles along the loop are not oriented alike; it cannot be filled.
-    NotOriented,
-    /// The boundary runs into an edge with more than two triangles and does not close; it cannot be
-    /// filled.
-    OpenChain,
-}
-
-impl LoopClass {
-    /// The name used in tables and reports.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Simple => "simple",
-            Self::Touching => "touching",
-            Self::Island => "island",
-            Self::OuterRim => "outer-rim",
-            Self::NotOriented => "not-oriented",
-            Self::OpenChain => "open-chain",
-        }
-    }
-}
-
-impl fmt::Display for LoopClass {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
 
 /// Sets the class of every closed, oriented loop.
 ///
@@ -189,8 +146,7 @@ fn spans_over(mesh: &TriMesh, host: &BoundaryLoop, island: &BoundaryLoop) -> boo
         return false;
     }
     let across = unit(area);
-    let right = unit(across.cross(&Vec3::ith(across.iamin(), 1.0)));
-    let up = across.cross(&right);
+    let [right, up] = axes_across(&across);
     let project = |&v: &u32| {
         let p = mesh.point(v);
         [p.dot(&right), p.dot(&up)]

@@ -6,7 +6,7 @@
 //!
 //! Not guaranteed: two loops can be linked and have the linking number zero (the Whitehead link).
 
-use super::loops::BoundaryLoop;
+use super::boundary_loop::BoundaryLoop;
 use crate::math::Vec3;
 use crate::math::aabb::Aabb;
 use crate::mesh::trimesh::TriMesh;

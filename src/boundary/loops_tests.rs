@@ -1,10 +1,10 @@
 //! Loops, their measures and classes.
 
-use super::classify::LoopClass;
-use super::loops::{BoundaryLoop, BoundaryLoops};
+use super::boundary_loop::{BoundaryLoop, LoopClass};
+use super::loops::BoundaryLoops;
 use crate::fixtures::{self, Arrays, fixtures};
 use crate::math::Vec3;
-use crate::mesh::connectivity::{BOUNDARY, origin, target};
+use crate::mesh::halfedge::{BOUNDARY, origin, target};
 use crate::mesh::trimesh::TriMesh;
 use proptest::prelude::*;
 use std::collections::BTreeSet;

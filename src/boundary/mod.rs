@@ -1,8 +1,10 @@
 //! Boundary loops: finding, measuring, classifying and choosing them.
 
-pub(crate) mod classify;
+pub(crate) mod boundary_loop;
+mod classify;
 pub(crate) mod linked;
 pub(crate) mod loops;
+pub(crate) mod opening;
 pub(crate) mod select;
 
 #[cfg(test)]

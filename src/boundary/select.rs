@@ -1,7 +1,8 @@
 //! Which loops to fill: rules as data.
 
-use super::loops::{BoundaryLoop, BoundaryLoops};
-use crate::error::{Error, ErrorKind, Result};
+use super::boundary_loop::BoundaryLoop;
+use super::loops::BoundaryLoops;
+use crate::error::{Error, Result};
 
 /// Rules that choose the loops to fill. The default chooses every loop.
 ///
@@ -25,14 +26,13 @@ impl Selection {
     /// For each loop the reason why it stays open, or `None` when it is to be filled.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] when an edge of `only` or `keep` is on no loop, or `max_perimeter` is
+    /// [`crate::ErrorKind::InvalidInput`] when an edge of `only` or `keep` is on no loop, or `max_perimeter` is
     /// negative or not a number.
     pub fn reasons_to_keep(&self, boundary: &BoundaryLoops) -> Result<Vec<Option<String>>> {
         if let Some(limit) = self.max_perimeter.filter(|p| p.is_nan() || *p < 0.0) {
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                format!("the largest perimeter must be a number that is not negative, not {limit}"),
-            ));
+            return Err(Error::invalid(format!(
+                "the largest perimeter must be a number that is not negative, not {limit}"
+            )));
         }
         let only = loops_of_edges(boundary, &self.only)?;
         let keep = loops_of_edges(boundary, &self.keep)?;
@@ -75,10 +75,9 @@ fn loops_of_edges(boundary: &BoundaryLoops, edges: &[[u32; 2]]) -> Result<Vec<us
                 Some(_) => format!("; the boundary edge runs from {to} to {from}"),
                 None => String::new(),
             };
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                format!("no boundary edge runs from vertex {from} to vertex {to}{hint}"),
-            ));
+            return Err(Error::invalid(format!(
+                "no boundary edge runs from vertex {from} to vertex {to}{hint}"
+            )));
         };
         ids.push(found.id);
     }

@@ -1,29 +1,36 @@
-//! k-harmonic fairing with the rim and the triangles round it fixed.
+//! k-harmonic fairing: moves the interior vertices of a patch to the minimum of an energy. The rim and the mesh round
+//! it do not move.
 //!
-//! Based on: L. Kobbelt, S. Campagna, J. Vorsatz, H.-P. Seidel, "Interactive multi-resolution modeling on
-//! arbitrary meshes", SIGGRAPH 1998; M. Botsch, L. Kobbelt, "An intuitive framework for real-time freeform
-//! modeling", ACM TOG 23(3), 2004; the order of continuity as P. Liepa, "Filling holes in meshes", SGP 2003
-//! names it.
-//!
-//! With `L` the stiffness matrix of the Laplacian, `M` the diagonal matrix of the vertex areas and `x` the
-//! positions, the interior vertices minimise
+//! Let `L` be the stiffness matrix of the Laplacian, `M` the diagonal matrix of the vertex areas, and `x` the
+//! positions. The energies are
 //!
 //! * order 1: the membrane energy `xᵀ L x`;
-//! * order 2: `|M^(-1/2) L x|²` over the interior and rim vertices, which the triangles of ring 0 join in
-//!   with the surroundings' tangent planes;
-//! * order 3: `gᵀ L g` with `g = M⁻¹ L x` over the interior, rim and ring 1 vertices, for their curvature.
+//! * order 2: `|M^(-1/2) L x|²`, summed over interior and rim vertices. It reads one ring of triangles of the mesh,
+//!   which gives common tangent planes;
+//! * order 3: `gᵀ L g` with `g = M⁻¹ L x`, over interior, rim and ring 1 vertices. It reads two rings, which gives
+//!   common curvature.
 //!
-//! In `L` as a quadratic form, negative weights count as zero (but for [`Weights::Voronoi`]): the form stays definite
-//! where the triangles could not be made Delaunay. Vertices whose triangles do not close (on another boundary, say) contribute no energy.
+//! Each is minimized by one sparse linear system.
 //!
-//! Not guaranteed: that the result has no self-intersection, nor that it stays near the rim.
+//! Sources: L. Kobbelt, S. Campagna, J. Vorsatz, H.-P. Seidel, "Interactive multi-resolution modeling on
+//! arbitrary meshes", SIGGRAPH 1998; M. Botsch, L. Kobbelt, "An intuitive framework for real-time freeform
+//! modeling", ACM TOG 23(3), 2004; P. Liepa, "Filling holes in meshes", SGP 2003, for the names of the orders.
+//!
+//! In `L` as a quadratic form, negative weights count as zero (except for [`Weights::Voronoi`]), so that the form
+//! stays definite where triangles are not Delaunay. Vertices that triangles do not surround, as on another boundary,
+//! contribute no energy.
+//!
+//! Cost: see [`fair`]. Not guaranteed: that the result has no self-intersection, or that it stays near the rim.
 
 use super::laplacian::{Coefficient, FairingDomain, Weights};
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::Vec3;
-use crate::math::sparse::{SpdSolver, SymmetricMatrix};
-use crate::patch::{PatchSurface, Surroundings};
+use crate::math::adjacency::CompressedRows;
+use crate::math::sparse::SpdSolver;
+use crate::math::symmetric::SymmetricMatrix;
+use crate::patch::PatchSurface;
+use crate::surroundings::Surroundings;
 
 /// Order of the energy, which is the number of rings of triangles that it reads plus one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -36,20 +43,20 @@ pub(crate) enum Order {
     Three = 3,
 }
 
-/// Entries of a column from the diagonal down, with two rings round a vertex of degree six.
+/// Usual number of entries of a column of the system from the diagonal down: two rings round a vertex of valence six.
 const USUAL_COLUMN: usize = 10;
-/// Entries of a row of the Laplacian at a vertex of degree six.
+
+/// Usual number of entries of a row of the Laplacian, at a vertex of valence six.
 const USUAL_ROW: usize = 7;
 
-/// Moves the interior vertices of `surface` to the minimum of the energy. `solver` knows whom to ask whether to
-/// go on.
+/// Moves the interior vertices of `surface` to the minimum of the energy. The job of `solver` can be cancelled.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Solver`] when the system cannot be solved, [`crate::ErrorKind::Cancelled`]; `surface` is then
 /// unchanged.
 ///
 /// # Complexity
-/// That of one sparse Cholesky factorisation in the number of interior vertices `n`: about `n^1.5`.
+/// That of one sparse Cholesky factorization in the number of interior vertices `n`: about `n^1.5`.
 pub(crate) fn fair(
     surface: &mut PatchSurface,
     surroundings: &Surroundings,
@@ -73,14 +80,14 @@ pub(crate) fn fair(
     Ok(())
 }
 
-/// Gives back the memory of a domain, which takes milliseconds when it is large, and asks whether to stop.
+/// Frees the memory of a domain, which takes milliseconds when it is large, and checks whether the job is cancelled.
 fn give_back(domain: FairingDomain, job: &Job<'_>) -> Result<()> {
     drop(domain);
     job.ask()
 }
 
-/// Extends values given at the rim to the interior vertices, three at a time, by the harmonic function of
-/// uniform weights: each interior value is the mean of its neighbours', so none leaves the rim's range.
+/// Extends values at the rim to the interior vertices, three numbers at a time, by the harmonic function with uniform
+/// weights. Each interior value is the mean of its neighbors' values, so all stay in the range of the rim.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Solver`] when the system cannot be solved.
@@ -98,8 +105,8 @@ pub(crate) fn extend_from_rim(
     Ok(solution)
 }
 
-/// Extends values given at the rim and round it to the interior vertices, three at a time, by the minimum of
-/// the thin-plate energy: they go on with the slope that they have round the rim, and may leave its range.
+/// Extends values at the rim and round it to the interior vertices, three numbers at a time, by the minimum of the
+/// thin-plate energy. They continue with the slope that they have at the rim, and may leave the range of the rim.
 /// `around_values` belong to the points of `surroundings`.
 ///
 /// # Errors
@@ -127,7 +134,7 @@ pub(crate) fn extend_with_slope(
 struct Operator<'a> {
     domain: &'a FairingDomain,
     order: Order,
-    /// Whether the energy is summed over the vertex.
+    /// Whether the vertex is in the sum of the energy.
     is_summed: Vec<bool>,
 }
 
@@ -242,29 +249,22 @@ impl<'a> Operator<'a> {
         Ok((matrix, right_side))
     }
 
-    /// The rows of `L` at the summed vertices, diagonal included, as far as they lie over interior vertices.
-    fn interior_rows(&self) -> Rows {
+    /// The rows of `L` at the summed vertices, with the diagonal, restricted to interior columns.
+    fn interior_rows(&self) -> CompressedRows<Coefficient> {
         let domain = self.domain;
         let interior = domain.rim_count..domain.patch_count;
-        let mut rows = Rows {
-            starts: Vec::with_capacity(domain.vertex_count() + 1),
-            entries: Vec::with_capacity(USUAL_ROW * interior.len()),
-        };
-        rows.starts.push(0);
+        let mut rows =
+            CompressedRows::with_capacity(domain.vertex_count(), USUAL_ROW * interior.len());
         for (r, is_summed) in self.is_summed.iter().enumerate() {
-            if *is_summed {
-                let row = domain.row(r);
-                let (before, behind) =
-                    row.split_at(row.partition_point(|e| (e.column as usize) < r));
-                let diagonal = Coefficient {
-                    column: r as u32,
-                    weight: -row.iter().map(|e| e.weight).sum::<f64>(),
-                };
-                let whole = before.iter().chain([&diagonal]).chain(behind);
-                let inside = whole.filter(|e| interior.contains(&(e.column as usize)));
-                rows.entries.extend(inside);
-            }
-            rows.starts.push(rows.entries.len() as u32);
+            let row = if *is_summed { domain.row(r) } else { &[] };
+            let (before, behind) = row.split_at(row.partition_point(|e| (e.column as usize) < r));
+            let diagonal = Coefficient {
+                column: r as u32,
+                weight: -row.iter().map(|e| e.weight).sum::<f64>(),
+            };
+            let whole = before.iter().chain([&diagonal]).chain(behind);
+            let inside = |e: &&Coefficient| *is_summed && interior.contains(&(e.column as usize));
+            rows.append(whole.filter(inside).copied());
         }
         rows
     }
@@ -307,19 +307,6 @@ fn membrane_equations(
         matrix.column_starts.push(matrix.rows.len() as u32);
     }
     Ok((matrix, right_side))
-}
-
-/// Sparse rows with ascending columns.
-struct Rows {
-    starts: Vec<u32>,
-    entries: Vec<Coefficient>,
-}
-
-impl Rows {
-    fn of(&self, row: u32) -> &[Coefficient] {
-        let r = row as usize;
-        &self.entries[self.starts[r] as usize..self.starts[r + 1] as usize]
-    }
 }
 
 struct Scratch {

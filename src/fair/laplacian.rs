@@ -1,36 +1,39 @@
-//! The Laplacian of a patch together with the triangles round it.
+//! The discrete Laplacian of a patch joined to the triangles round it: edge weights and vertex areas.
 //!
-//! Based on: U. Pinkall, K. Polthier, "Computing discrete minimal surfaces and their conjugates",
-//! Experimental Mathematics 2(1), 1993 (cotangent weights); lumped areas as in M. Botsch, L. Kobbelt,
-//! "An intuitive framework for real-time freeform modeling", ACM TOG 23(3), 2004; Voronoi areas as in M. Meyer,
-//! M. Desbrun, P. Schröder, A. H. Barr, "Discrete differential-geometry operators for triangulated 2-manifolds",
-//! VisMath 2002, section 3.3.
+//! Sources: U. Pinkall, K. Polthier, "Computing discrete minimal surfaces and their conjugates", Experimental
+//! Mathematics 2(1), 1993, for cotangent weights; M. Botsch, L. Kobbelt, "An intuitive framework for real-time
+//! freeform modeling", ACM TOG 23(3), 2004, for lumped areas; M. Meyer, M. Desbrun, P. Schröder, A. H. Barr,
+//! "Discrete differential-geometry operators for triangulated 2-manifolds", VisMath 2002, section 3.3, for Voronoi
+//! areas.
+//!
+//! Cost: linear in the number of triangles.
 
 use crate::error::Result;
 use crate::job::Job;
+use crate::math::adjacency::CompressedRows;
 use crate::math::{Vec3, cross_normal};
-use crate::patch::{PatchSurface, Surroundings};
+use crate::patch::PatchSurface;
+use crate::surroundings::Surroundings;
 
-/// Cotangents are limited to those of an angle of about half a degree: beyond it they carry more rounding
-/// than shape.
+/// Upper bound on a cotangent, that of about half a degree. A larger one is mostly rounding error.
 const LARGEST_COTANGENT: f64 = 100.0;
-/// The same for Voronoi weights: the cotangent of the angle whose cosine is 0.999, as CGAL limits it.
+/// Upper bound on a cosine for Voronoi weights, as in CGAL.
 const LARGEST_COSINE: f64 = 0.999;
-/// Vertex areas are at least this share of the mean one, so that a sliver does not outweigh everything.
+/// Lower bound on a vertex area, as a share of the mean area, so that a sliver does not dominate the energy.
 const SMALLEST_AREA_SHARE: f64 = 1e-3;
 
 /// Edge weights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Weights {
-    /// One for each edge, and area one for each vertex: needs no shape, so it serves as a start.
+    /// Weight 1 for each edge, area 1 for each vertex. They do not depend on the shape, so they serve for a start.
     Uniform,
-    /// One for each edge, and as area of a vertex the number of its edges: with order two the second-order
-    /// umbrella vector of every interior vertex vanishes at the minimum.
+    /// Weight 1 for each edge; the area of a vertex is its valence. With order two, the second-order umbrella vector of
+    /// every interior vertex is zero at the minimum.
     Umbrella,
-    /// Half the cotangents of the opposite angles, and a third of the triangles' areas.
+    /// Half the sum of the cotangents of the opposite angles; the area is a third of the triangles' areas.
     Cotangent,
-    /// The same cotangents, and the triangles' shares of the Voronoi cells. Nothing but the cotangents is limited, and
-    /// negative weights count: what CGAL does, for comparison with it.
+    /// The same weights; the area is that of the Voronoi cell. Only the cotangents are limited, and negative weights
+    /// count. This is what CGAL does, for comparison with it.
     Voronoi,
 }
 
@@ -52,13 +55,12 @@ pub(crate) struct FairingDomain {
     pub(crate) triangles: Vec<[u32; 3]>,
     /// 0 for rim and interior vertices, the ring for those of the surroundings.
     pub(crate) levels: Vec<u32>,
-    row_starts: Vec<u32>,
-    entries: Vec<Coefficient>,
+    rows: CompressedRows<Coefficient>,
     /// Area of each vertex.
     pub(crate) areas: Vec<f64>,
-    /// Where the Laplacian is a quadratic form, whether negative weights count.
+    /// Whether negative weights count in the Laplacian as a quadratic form.
     has_negative: bool,
-    /// Whether all edges at the vertex have two triangles, so that its row is that of the closed surface.
+    /// Whether all edges at the vertex have two triangles, so that its row is complete.
     pub(crate) is_complete: Vec<bool>,
 }
 
@@ -66,7 +68,7 @@ impl FairingDomain {
     /// Joins the patch to the rings of its surroundings below `ring_count`.
     ///
     /// # Errors
-    /// `Cancelled` when the job is stopped.
+    /// `Cancelled` when the job is cancelled.
     pub(crate) fn new(
         surface: &PatchSurface,
         surroundings: &Surroundings,
@@ -82,7 +84,7 @@ impl FairingDomain {
             if (v as usize) < rim_count {
                 0
             } else {
-                surroundings.levels[v as usize - rim_count]
+                surroundings.levels()[v as usize]
             }
         };
         let ring_of = |t: &[u32; 3]| t.iter().map(|&v| level_of(v)).min().unwrap_or(0);
@@ -95,19 +97,18 @@ impl FairingDomain {
         };
         let mut triangles = surface.triangles.clone();
         let near = surroundings
-            .triangles
+            .triangles()
             .iter()
             .filter(|t| ring_of(t) < ring_count);
         triangles.extend(near.map(|t| t.map(global)));
         let mut points = surface.points.clone();
-        points.extend_from_slice(&surroundings.points);
+        points.extend_from_slice(surroundings.outer());
         let mut levels = vec![0; patch_count];
-        levels.extend_from_slice(&surroundings.levels);
+        levels.extend_from_slice(&surroundings.levels()[surroundings.rim().len()..]);
         let mut domain = Self {
             rim_count,
             patch_count,
-            row_starts: Vec::new(),
-            entries: Vec::new(),
+            rows: CompressedRows::with_capacity(0, 0),
             areas: vec![0.0; points.len()],
             has_negative: weights == Weights::Voronoi,
             is_complete: vec![true; points.len()],
@@ -127,10 +128,10 @@ impl FairingDomain {
 
     /// Off-diagonal entries of the row of `vertex`, with ascending columns; the diagonal is minus their sum.
     pub(crate) fn row(&self, vertex: usize) -> &[Coefficient] {
-        &self.entries[self.row_starts[vertex] as usize..self.row_starts[vertex + 1] as usize]
+        self.rows.of(vertex as u32)
     }
 
-    /// The weight of an entry where the Laplacian is a quadratic form.
+    /// The weight of an entry in the Laplacian as a quadratic form.
     pub(crate) fn form_weight(&self, entry: &Coefficient) -> f64 {
         if self.has_negative {
             entry.weight
@@ -141,18 +142,9 @@ impl FairingDomain {
 
     fn assemble(&mut self, weights: Weights, job: &Job<'_>) -> Result<()> {
         let count = self.vertex_count();
-        let mut starts = vec![0_u32; count + 1];
-        for t in &self.triangles {
-            for &v in t {
-                starts[v as usize + 1] += 2;
-            }
-        }
-        for v in 0..count {
-            starts[v + 1] += starts[v];
-        }
         // Row and half of the weight of each edge, for either direction, by column.
-        let mut slots = starts.clone();
-        let mut by_column = vec![(0_u32, 0.0); 6 * self.triangles.len()];
+        let ends = self.triangles.as_flattened().iter().flat_map(|&v| [v, v]);
+        let mut by_column = CompressedRows::with_room(count, ends, (0_u32, 0.0));
         job.ask()?;
         for t in &self.triangles {
             job.tick(3)?;
@@ -165,56 +157,45 @@ impl FairingDomain {
             for k in 0..3 {
                 let (a, b) = (t[(k + 1) % 3], t[(k + 2) % 3]);
                 for (row, column) in [(a, b), (b, a)] {
-                    let slot = &mut slots[column as usize];
-                    by_column[*slot as usize] = (row, cotangents[k] / 2.0);
-                    *slot += 1;
+                    by_column.push(column, (row, cotangents[k] / 2.0));
                 }
                 self.areas[t[k] as usize] += areas[k];
             }
         }
-        // Taken column by column, the entries of each row come in ascending order.
-        slots.copy_from_slice(&starts);
+        // Columns are taken in order, so the entries of each row are in ascending order.
         let zero = Coefficient {
             column: 0,
             weight: 0.0,
         };
-        let mut half_edges = vec![zero; by_column.len()];
-        for column in 0..count {
+        let mut half_edges = by_column.with_same_room(zero);
+        for column in 0..count as u32 {
             job.tick(3)?;
-            for &(row, weight) in &by_column[starts[column] as usize..starts[column + 1] as usize] {
-                let slot = &mut slots[row as usize];
-                half_edges[*slot as usize] = Coefficient {
-                    column: column as u32,
-                    weight,
-                };
-                *slot += 1;
+            for &(row, weight) in by_column.of(column) {
+                half_edges.push(row, Coefficient { column, weight });
             }
         }
         // Nearly every edge has two triangles.
-        self.entries.reserve(half_edges.len() / 2 + self.rim_count);
-        self.row_starts.reserve(count + 1);
-        self.row_starts.push(0);
+        let room = 3 * self.triangles.len() + self.rim_count;
+        self.rows = CompressedRows::with_capacity(count, room);
         for v in 0..count {
             job.tick(3)?;
-            let row = &half_edges[starts[v] as usize..starts[v + 1] as usize];
-            for same in row.chunk_by(|a, b| a.column == b.column) {
+            let row = half_edges.of(v as u32);
+            let entries = row.chunk_by(|a, b| a.column == b.column).map(|same| {
                 self.is_complete[v] &= same.len() == 2;
                 let weight = match weights {
                     Weights::Uniform | Weights::Umbrella => 1.0,
                     Weights::Cotangent | Weights::Voronoi => same.iter().map(|e| e.weight).sum(),
                 };
-                self.entries.push(Coefficient {
-                    column: same[0].column,
-                    weight,
-                });
-            }
-            self.row_starts.push(self.entries.len() as u32);
+                let column = same[0].column;
+                Coefficient { column, weight }
+            });
+            self.rows.append(entries);
         }
         match weights {
             Weights::Uniform => self.areas.fill(1.0),
             Weights::Umbrella => {
-                for (area, ends) in self.areas.iter_mut().zip(self.row_starts.windows(2)) {
-                    *area = f64::from(ends[1] - ends[0]).max(1.0);
+                for v in 0..count {
+                    self.areas[v] = (self.row(v).len() as f64).max(1.0);
                 }
             }
             Weights::Cotangent => {
@@ -233,7 +214,7 @@ impl FairingDomain {
     }
 }
 
-/// Cotangent of the angle at each corner, and a third of the area for each.
+/// The cotangent of the angle at each corner, and a third of the area for each corner.
 fn cotangents_and_thirds(corners: [&Vec3; 3]) -> ([f64; 3], [f64; 3]) {
     let double_area = cross_normal(corners[0], corners[1], corners[2]).norm();
     let cotangent = |k: usize| {
@@ -253,8 +234,8 @@ fn cotangents_and_thirds(corners: [&Vec3; 3]) -> ([f64; 3], [f64; 3]) {
     )
 }
 
-/// Cotangent of the angle at each corner, and the corner's share of the area: what is nearest to it, or where an angle
-/// is obtuse half of the area at that angle and a quarter at the others.
+/// The cotangent of the angle at each corner, and the corner's share of the area. The share is the part nearest to the
+/// corner. In an obtuse triangle it is half of the area at the obtuse angle and a quarter at the others.
 fn cotangents_and_cells(corners: [&Vec3; 3]) -> ([f64; 3], [f64; 3]) {
     let double_area = cross_normal(corners[0], corners[1], corners[2]).norm();
     let side = |k: usize| corners[(k + 2) % 3] - corners[(k + 1) % 3];

@@ -1,4 +1,4 @@
-//! What fairing must do: reproduce what is flat, minimise its energy, meet the rim.
+//! Tests: fairing keeps flat patches flat, minimizes its energy, and meets the rim.
 
 use super::kharmonic::{Order, extend_from_rim, fair};
 use super::laplacian::{FairingDomain, Weights};
@@ -6,7 +6,8 @@ use crate::fixtures::{self, Arrays, Noise};
 use crate::job::{Job, UNLIMITED};
 use crate::math::Vec3;
 use crate::math::sparse::SpdSolver;
-use crate::patch::{PatchSurface, Surroundings};
+use crate::patch::PatchSurface;
+use crate::surroundings::Surroundings;
 
 const ORDERS: [Order; 3] = [Order::One, Order::Two, Order::Three];
 const WEIGHTS: [Weights; 3] = [Weights::Uniform, Weights::Cotangent, Weights::Voronoi];
@@ -61,11 +62,15 @@ fn divided(mesh: &Arrays, is_patch: impl Fn([f64; 3]) -> bool) -> (PatchSurface,
         points: of_patch.iter().map(point).collect(),
         triangles: inner.iter().map(|t| t.map(|v| local[v as usize])).collect(),
     };
-    let surroundings = Surroundings {
-        points: around.iter().map(point).collect(),
-        levels: around.iter().map(|&v| level[v]).collect(),
-        triangles: near.map(|t| t.map(|v| local[v as usize])).collect(),
-    };
+    let surroundings = Surroundings::new(
+        rim.len(),
+        rim.iter().chain(&around).map(point).collect(),
+        rim.iter()
+            .map(|_| 0)
+            .chain(around.iter().map(|&v| level[v]))
+            .collect(),
+        near.map(|t| t.map(|v| local[v as usize])).collect(),
+    );
     (surface, surroundings)
 }
 
@@ -143,7 +148,7 @@ fn a_patch_in_the_plane_stays_where_it_is() {
     }
 }
 
-/// The energy that `order` is documented to minimise, vertex by vertex from the definition.
+/// The energy that `order` is documented to minimize, vertex by vertex from the definition.
 fn energy(domain: &FairingDomain, order: Order, points: &[Vec3]) -> f64 {
     let count = domain.vertex_count();
     let laplacian = |v: usize, at: &dyn Fn(usize) -> Vec3| -> Vec3 {
@@ -235,7 +240,7 @@ fn a_cap_is_nearer_to_the_sphere_the_higher_the_order() {
 }
 
 #[test]
-fn values_extended_from_the_rim_are_means_of_their_neighbours() {
+fn values_extended_from_the_rim_are_means_of_their_neighbors() {
     let (surface, _) = disc(&flat_sheet(), [7.0, 7.0], 4.0);
     let mut noise = Noise(6);
     let rim: Vec<Vec3> = (0..surface.rim_count)
@@ -245,7 +250,7 @@ fn values_extended_from_the_rim_are_means_of_their_neighbours() {
     assert_eq!(inside.len(), surface.points.len() - surface.rim_count);
     let values: Vec<Vec3> = rim.iter().chain(&inside).copied().collect();
     for v in surface.rim_count..surface.points.len() {
-        let mut neighbours: Vec<u32> = surface
+        let mut neighbors: Vec<u32> = surface
             .triangles
             .iter()
             .filter(|t| t.contains(&(v as u32)))
@@ -253,10 +258,10 @@ fn values_extended_from_the_rim_are_means_of_their_neighbours() {
             .copied()
             .filter(|&w| w as usize != v)
             .collect();
-        neighbours.sort_unstable();
-        neighbours.dedup();
+        neighbors.sort_unstable();
+        neighbors.dedup();
         let mean =
-            neighbours.iter().map(|&w| values[w as usize]).sum::<Vec3>() / neighbours.len() as f64;
+            neighbors.iter().map(|&w| values[w as usize]).sum::<Vec3>() / neighbors.len() as f64;
         let off = values[v] - mean;
         assert!(
             off.x.abs() < 1e-9 && off.y.abs() < 1e-9 && off.z.abs() < 1e-3,

@@ -4,13 +4,13 @@
 //! by which the pipeline knows colors and normals.
 
 use super::failure::{Failure, invalid, nth};
-use super::guard::{guard, guard_mesh};
-use super::input::Columns;
+use super::guard::{guard, guard_with};
+use super::input::{copy_column, rows};
 use super::objects::{MeshObject, NamedColumns, with_mesh_mut};
-use super::output::{Sink, Wanted, write};
-use super::rows::ATTRIBUTE_TYPES;
+use super::output::{Sink, write};
+use super::rows::{ATTRIBUTE_TYPES, Rows};
 use super::status::HolefillStatus;
-use super::structs::{blank, write_struct};
+use super::structs::write_struct;
 use super::text::{read_text, write_text};
 use super::types::*;
 use crate::mesh::attributes::{
@@ -59,9 +59,9 @@ fn find(
 /// The types of attributes, here and in the mesh.
 macro_rules! scalar_types {
     ($($number:ident $variant:ident)*) => {
-        fn column(columns: &Columns, k: usize, what: &str) -> Result<ScalarValues, Failure> {
-            match columns.rows.scalar_type {
-                $($number => Ok(ScalarValues::$variant(columns.column(k, what)?)),)*
+        fn column(rows: &Rows, k: usize, what: &str) -> Result<ScalarValues, Failure> {
+            match rows.scalar_type {
+                $($number => Ok(ScalarValues::$variant(copy_column(rows, k, what)?)),)*
                 other => Err(invalid(format!("{what} cannot have the type {other}"))),
             }
         }
@@ -84,57 +84,40 @@ scalar_types! {
     HOLEFILL_TYPE_F64 F64
 }
 
-/// An attribute that was copied from the caller.
-pub(super) struct CopiedAttribute {
-    named: NamedColumns,
-    /// The values of its columns.
-    values: Vec<ScalarValues>,
-}
+/// An attribute that was copied from the caller, and its columns by name.
+pub(super) type Copied = (NamedColumns, Vec<(String, AttributeValues)>);
 
-impl CopiedAttribute {
-    /// Copies the rows of `values`, of which there must be `count`.
-    ///
-    /// # Safety
-    /// `values` is null or describes memory of the caller.
-    pub(super) unsafe fn read(
-        name: &str,
-        components: u32,
-        values: *const HolefillInput,
-        count: usize,
-        what: &str,
-    ) -> Result<Self, Failure> {
-        // SAFETY: the caller's promise.
-        let columns = unsafe { Columns::check(values, components as usize, what)? };
-        let rows = columns.rows.count;
-        if rows != count {
-            return Err(invalid(format!(
-                "attribute {name} has {rows} rows for {count} elements"
-            )));
-        }
-        let values: Result<Vec<ScalarValues>, Failure> = (0..components as usize)
-            .map(|k| column(&columns, k, what))
-            .collect();
-        Ok(Self {
-            values: values?,
-            named: NamedColumns {
-                name: name.to_owned(),
-                scalar_type: columns.rows.scalar_type,
-                columns: column_names(name, components),
-            },
-        })
+/// Copies the rows of `values`, of which there must be `count`.
+///
+/// # Safety
+/// `values` is null or describes memory of the caller.
+pub(super) unsafe fn copy_attribute(
+    name: &str,
+    components: u32,
+    values: *const HolefillInput,
+    count: usize,
+    what: &str,
+) -> Result<Copied, Failure> {
+    // SAFETY: the caller's promise.
+    let given = unsafe { rows(values, components as usize, ATTRIBUTE_TYPES, what)? };
+    let rows = given.count;
+    if rows != count {
+        return Err(invalid(format!(
+            "attribute {name} has {rows} rows for {count} elements"
+        )));
     }
-
-    /// The attribute, and its columns by name.
-    pub(super) fn into_columns(
-        self,
-    ) -> (
-        NamedColumns,
-        impl Iterator<Item = (String, AttributeValues)>,
-    ) {
-        let names = self.named.columns.clone();
-        let values = self.values.into_iter().map(AttributeValues::Scalars);
-        (self.named, names.into_iter().zip(values))
+    let names = column_names(name, components);
+    let mut columns = Vec::new();
+    for (k, name) in names.iter().enumerate() {
+        let values = AttributeValues::Scalars(column(&given, k, what)?);
+        columns.push((name.clone(), values));
     }
+    let named = NamedColumns {
+        name: name.to_owned(),
+        scalar_type: given.scalar_type,
+        columns: names,
+    };
+    Ok((named, columns))
 }
 
 /// Adds an attribute to the vertices or the triangles of a mesh, and copies its values.
@@ -167,7 +150,7 @@ pub unsafe extern "C" fn holefill_mesh_add_attribute(
                 "an attribute needs a name and 1 to {MOST_COMPONENTS} components"
             )));
         }
-        with_mesh_mut(mesh.id, |object| {
+        with_mesh_mut(mesh, |object| {
             let mesh = object.session.mesh();
             let known = [mesh.vertex_attributes(), mesh.face_attributes()][place];
             let names = column_names(name, components);
@@ -177,8 +160,8 @@ pub unsafe extern "C" fn holefill_mesh_add_attribute(
             // All is copied before anything is added: then nothing can fail.
             // SAFETY: the caller's promise.
             let copied =
-                unsafe { CopiedAttribute::read(name, components, values, known.len(), "values")? };
-            let (named, columns) = copied.into_columns();
+                unsafe { copy_attribute(name, components, values, known.len(), "values")? };
+            let (named, columns) = copied;
             for (name, values) in columns {
                 match place {
                     0 => object.session.add_vertex_attribute(&name, values)?,
@@ -201,7 +184,7 @@ pub unsafe extern "C" fn holefill_mesh_attribute_count(
     count: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         let found = object.attributes[place(element)?].len();
         // SAFETY: the caller's promise.
         unsafe { write(count, found as u64, "count") }
@@ -219,13 +202,13 @@ pub unsafe extern "C" fn holefill_mesh_attribute_info(
     info: *mut HolefillAttributeInfo,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         let (named, attributes) = find(object, element, index)?;
         let value = HolefillAttributeInfo {
             scalar_type: named.scalar_type,
             components: named.columns.len() as u32,
             count: attributes.len() as u64,
-            ..blank()
+            ..Default::default()
         };
         // SAFETY: the caller's promise.
         unsafe { write_struct(info, &value, "info") }
@@ -245,7 +228,7 @@ pub unsafe extern "C" fn holefill_mesh_attribute_name(
     length: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         let (named, _) = find(object, element, index)?;
         // SAFETY: the caller's promise.
         unsafe { write_text(&named.name, buffer, capacity, length) }
@@ -265,17 +248,12 @@ pub unsafe extern "C" fn holefill_mesh_read_attribute(
     output: *const HolefillOutput,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         let (named, attributes) = find(object, element, index)?;
-        let wanted = Wanted {
-            first,
-            total: attributes.len(),
-            width: named.columns.len(),
-            allowed: ATTRIBUTE_TYPES,
-        };
+        let (own, width) = (named.scalar_type, named.columns.len());
         // SAFETY: the caller's promise.
-        let sink = unsafe { Sink::check(output, &wanted)? };
-        let own = named.scalar_type;
+        let sink =
+            unsafe { Sink::check(output, first, attributes.len(), (width, ATTRIBUTE_TYPES))? };
         if !sink.is_of(own) && !sink.is_of(HOLEFILL_TYPE_F64) {
             return Err(invalid(format!(
                 "the attribute can be read as type {own} or {HOLEFILL_TYPE_F64}"

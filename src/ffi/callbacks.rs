@@ -1,23 +1,16 @@
 //! Functions of the caller that are told what happens.
 
-use super::types::{
-    HOLEFILL_LOG_DEBUG, HOLEFILL_LOG_INFO, HOLEFILL_LOG_WARNING, HOLEFILL_PROGRESS_VERSION,
-    HolefillFillOptions, HolefillLogCallback, HolefillLogLevel, HolefillProgress,
-    HolefillProgressCallback,
-};
+use super::types::*;
 use crate::fill::progress::{Progress, ProgressCallback};
 use crate::fill::report::{FillReport, HoleReport, HoleStatus};
-use std::ffi::{CString, c_void};
+use std::ffi::CString;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
 /// The callbacks of one call.
 pub(super) struct Callbacks {
-    progress: HolefillProgressCallback,
-    progress_data: *mut c_void,
-    log: HolefillLogCallback,
-    log_data: *mut c_void,
-    log_level: HolefillLogLevel,
+    /// Of these the callbacks, their data and the level of the log.
+    given: HolefillFillOptions,
     start: Instant,
 }
 
@@ -27,43 +20,11 @@ pub(super) struct Callbacks {
 unsafe impl Sync for Callbacks {}
 
 impl Callbacks {
-    pub(super) fn none() -> Self {
-        Self {
-            progress: None,
-            progress_data: std::ptr::null_mut(),
-            log: None,
-            log_data: std::ptr::null_mut(),
-            log_level: 0,
-            start: Instant::now(),
-        }
-    }
-
     /// # Safety
     /// The functions can be called with their data as long as the result lives, from any thread.
-    pub(super) unsafe fn new(options: &HolefillFillOptions) -> Self {
-        Self {
-            progress: options.progress,
-            progress_data: options.progress_data,
-            log: options.log,
-            log_data: options.log_data,
-            log_level: options.log_level,
-            start: Instant::now(),
-        }
-    }
-
-    /// A progress callback and no log.
-    ///
-    /// # Safety
-    /// As for [`new`](Self::new).
-    pub(super) unsafe fn of_progress(
-        progress: HolefillProgressCallback,
-        progress_data: *mut c_void,
-    ) -> Self {
-        Self {
-            progress,
-            progress_data,
-            ..Self::none()
-        }
+    pub(super) unsafe fn new(given: HolefillFillOptions) -> Self {
+        let start = Instant::now();
+        Self { given, start }
     }
 
     /// Calls `work` with the progress callback, as the algorithms take it.
@@ -72,7 +33,7 @@ impl Callbacks {
         work: impl FnOnce(Option<ProgressCallback<'_>>) -> R,
     ) -> R {
         let tell = |progress: Progress| self.tell(progress);
-        match self.progress {
+        match self.given.progress {
             Some(_) => work(Some(&tell)),
             None => work(None),
         }
@@ -80,18 +41,17 @@ impl Callbacks {
 
     /// Tells how far the work has come, and asks whether to go on.
     fn tell(&self, progress: Progress) -> ControlFlow<()> {
-        let Some(callback) = self.progress else {
+        let Some(callback) = self.given.progress else {
             return ControlFlow::Continue(());
         };
         let told = HolefillProgress {
-            struct_size: size_of::<HolefillProgress>() as u32,
-            version: HOLEFILL_PROGRESS_VERSION,
             holes_done: progress.holes_done as u64,
             holes_total: progress.holes_total as u64,
             seconds: self.start.elapsed().as_secs_f64(),
+            ..Default::default()
         };
         // SAFETY: the promise given to the constructor.
-        match unsafe { callback(&told, self.progress_data) } {
+        match unsafe { callback(&told, self.given.progress_data) } {
             0 => ControlFlow::Continue(()),
             _ => ControlFlow::Break(()),
         }
@@ -99,41 +59,37 @@ impl Callbacks {
 
     /// Tells what happened to the holes.
     pub(super) fn log(&self, report: &FillReport) {
-        if self.log.is_none() {
+        if self.given.log.is_none() {
             return;
         }
         for hole in &report.holes {
-            for attempt in &hole.tried {
-                self.say(
-                    HOLEFILL_LOG_DEBUG,
-                    format!(
-                        "loop {}: {} not used: {}",
-                        hole.id, attempt.method, attempt.reason
-                    ),
-                );
+            let id = hole.id;
+            for tried in &hole.tried {
+                let text = format!("loop {id}: {} not used: {}", tried.method, tried.reason);
+                self.say(HOLEFILL_LOG_DEBUG, text);
             }
             match hole.status {
                 HoleStatus::Filled => self.say(HOLEFILL_LOG_INFO, filled(hole)),
                 HoleStatus::Kept => {}
-                HoleStatus::Failed | HoleStatus::Cancelled => self.say(
-                    HOLEFILL_LOG_WARNING,
-                    format!("loop {} stays open: {}", hole.id, hole.reason),
-                ),
+                HoleStatus::Failed | HoleStatus::Cancelled => {
+                    let text = format!("loop {id} stays open: {}", hole.reason);
+                    self.say(HOLEFILL_LOG_WARNING, text);
+                }
             }
         }
     }
 
     fn say(&self, level: HolefillLogLevel, message: String) {
-        let Some(log) = self.log else {
+        let Some(log) = self.given.log else {
             return;
         };
-        if self.log_level != 0 && level > self.log_level {
+        if self.given.log_level != 0 && level > self.given.log_level {
             return;
         }
         let message = message.replace(['\0', '\n'], " ");
         if let Ok(message) = CString::new(message) {
             // SAFETY: the promise given to `new`; the text lives during the call.
-            unsafe { log(level, message.as_ptr(), self.log_data) };
+            unsafe { log(level, message.as_ptr(), self.given.log_data) };
         }
     }
 }

@@ -1,12 +1,13 @@
 //! What a failing call said.
 
-use super::guard::guard_silent;
-use super::objects::{ERROR, free, with_error};
+use super::guard::{guard_free, guard_with};
+use super::objects::lock;
 use super::output::write;
 use super::status::HolefillStatus;
 use super::text::write_text;
 use super::types::HolefillError;
 use std::ffi::c_char;
+use std::ptr;
 
 /// The status of the last call that failed with this error object.
 #[unsafe(no_mangle)]
@@ -14,11 +15,9 @@ pub unsafe extern "C" fn holefill_error_status(
     error: HolefillError,
     status: *mut HolefillStatus,
 ) -> HolefillStatus {
-    guard_silent(|| {
+    guard_with(error, ptr::null_mut(), |failure| {
         // SAFETY: the caller's promise.
-        with_error(error.id, |failure| unsafe {
-            write(status, failure.status, "status")
-        })
+        unsafe { write(status, lock(failure).status, "status") }
     })
 }
 
@@ -35,16 +34,14 @@ pub unsafe extern "C" fn holefill_error_message(
     capacity: u64,
     length: *mut u64,
 ) -> HolefillStatus {
-    guard_silent(|| {
+    guard_with(error, ptr::null_mut(), |failure| {
         // SAFETY: the caller's promise.
-        with_error(error.id, |failure| unsafe {
-            write_text(&failure.message, buffer, capacity, length)
-        })
+        unsafe { write_text(&lock(failure).message, buffer, capacity, length) }
     })
 }
 
 /// Frees an error object. The handle 0 is allowed.
 #[unsafe(no_mangle)]
 pub extern "C" fn holefill_error_free(error: HolefillError) -> HolefillStatus {
-    guard_silent(|| free(ERROR, error.id))
+    guard_free(error)
 }

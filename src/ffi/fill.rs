@@ -1,72 +1,18 @@
 //! Filling holes.
 
-use super::failure::{Failure, invalid, invalid_struct, nth};
-use super::guard::{guard, guard_mesh_mut};
-use super::input::read_indices;
-use super::loops::{loop_of_edge, loops_of_vertices, read_selection};
+use super::failure::Failure;
+use super::guard::guard;
+use super::loops::Wish;
 use super::objects::{MeshObject, Object, with_mesh_mut};
 use super::options::read_options;
 use super::output::hand_out;
 use super::status::{
     HOLEFILL_STATUS_INCOMPLETE, HOLEFILL_STATUS_NOTHING_TO_UNDO, HOLEFILL_STATUS_OK, HolefillStatus,
 };
-use super::structs::read_struct;
 use super::types::*;
-use crate::boundary::select::Selection;
 use crate::fill::report::{FillReport, HoleStatus};
-use crate::fill::session::{FillSession, Target};
+use crate::fill::session::FillSession;
 use std::ptr;
-
-/// Which holes a call is about, found in the mesh.
-pub(super) enum Wish {
-    Loops(Vec<usize>),
-    Selected(Selection),
-}
-
-impl Wish {
-    /// Reads what the caller points to, and finds it in the mesh. That a loop exists is checked here: it has a status of
-    /// its own.
-    ///
-    /// # Safety
-    /// `target` is null or points to a struct as its first fields say, whose pointers are the caller's.
-    pub(super) unsafe fn read(
-        target: *const HolefillTarget,
-        session: &FillSession,
-    ) -> Result<Self, Failure> {
-        // SAFETY: the caller's promise.
-        let Some(target) = (unsafe { read_struct(target, "target")? }) else {
-            return Ok(Self::Selected(Selection::default()));
-        };
-        if target.reserved != 0 {
-            return Err(invalid_struct(
-                "target has a reserved field that is not zero",
-            ));
-        }
-        let loops = &session.boundary().loops;
-        // SAFETY: the caller's promise, for every pointer.
-        unsafe {
-            Ok(match target.kind {
-                HOLEFILL_TARGET_SELECTED => Self::Selected(read_selection(target.selection)?),
-                HOLEFILL_TARGET_LOOP => Self::Loops(vec![nth(loops, target.loop_id, "loop")?.id]),
-                HOLEFILL_TARGET_EDGE => Self::Loops(vec![loop_of_edge(session, target.edge)?]),
-                HOLEFILL_TARGET_VERTICES => Self::Loops(loops_of_vertices(session, target.ids)?),
-                HOLEFILL_TARGET_LOOPS => {
-                    let ids = read_indices::<1>(target.ids, "ids")?.into_iter();
-                    let known = ids.map(|[id]| Ok(nth(loops, id.into(), "loop")?.id));
-                    Self::Loops(known.collect::<Result<_, Failure>>()?)
-                }
-                kind => return Err(invalid(format!("there is no kind {kind} of target"))),
-            })
-        }
-    }
-
-    pub(super) fn target(&self) -> Target<'_> {
-        match self {
-            Self::Loops(ids) => Target::Loops(ids),
-            Self::Selected(selection) => Target::Selected(selection),
-        }
-    }
-}
 
 /// Whether a report says that something that was asked for was not done.
 pub(super) fn status_of(report: &FillReport) -> HolefillStatus {
@@ -134,7 +80,7 @@ pub unsafe extern "C" fn holefill_mesh_fill(
                 .with_progress(|progress| session.fill(wish.target(), &options, progress))?)
         };
         // SAFETY: the caller's promise.
-        let filled = with_mesh_mut(mesh.id, |object| unsafe { change(object, report, fill) })?;
+        let filled = with_mesh_mut(mesh, |object| unsafe { change(object, report, fill) })?;
         callbacks.log(&filled);
         Ok(status_of(&filled))
     })
@@ -161,8 +107,10 @@ pub unsafe extern "C" fn holefill_mesh_undo(
     mesh: HolefillMesh,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh_mut(mesh, error, |object| match object.session.undo() {
-        true => Ok(()),
-        false => Err(Failure::of(HOLEFILL_STATUS_NOTHING_TO_UNDO)),
+    guard(error, || {
+        with_mesh_mut(mesh, |object| match object.session.undo() {
+            true => Ok(()),
+            false => Err(Failure::of(HOLEFILL_STATUS_NOTHING_TO_UNDO)),
+        })
     })
 }

@@ -1,11 +1,9 @@
 //! What every exported function runs in.
 
 use super::failure::Failure;
-use super::objects::{ERROR, MeshObject, Object, PlanObject, TABLE, keep};
-use super::objects::{with_mesh, with_mesh_mut, with_plan, with_report};
+use super::objects::{Handle, Object, free, keep, lock};
 use super::status::{HOLEFILL_STATUS_OK, HOLEFILL_STATUS_PANIC, HolefillStatus};
-use super::types::{HolefillError, HolefillMesh, HolefillPlan, HolefillReport};
-use crate::fill::report::FillReport;
+use super::types::HolefillError;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
 
@@ -48,50 +46,23 @@ pub(super) fn guard<S: Success>(
     }
 }
 
-/// As [`guard`], for functions without an error object.
-pub(super) fn guard_silent(body: impl FnOnce() -> Result<(), Failure>) -> HolefillStatus {
-    guard(std::ptr::null_mut(), body)
-}
-
 /// As [`guard`], for functions that return something else. `otherwise` stands for a panic.
 pub(super) fn guard_value<R>(otherwise: R, body: impl FnOnce() -> R) -> R {
     catch_unwind(AssertUnwindSafe(body)).unwrap_or(otherwise)
 }
 
-/// As [`guard`], with a mesh to read.
-pub(super) fn guard_mesh(
-    mesh: HolefillMesh,
+/// As [`guard`], with the object of a handle.
+pub(super) fn guard_with<H: Handle>(
+    handle: H,
     error: *mut HolefillError,
-    body: impl FnOnce(&MeshObject) -> Result<(), Failure>,
+    body: impl FnOnce(&H::Object) -> Result<(), Failure>,
 ) -> HolefillStatus {
-    guard(error, || with_mesh(mesh.id, body))
+    guard(error, || handle.with(body))
 }
 
-/// As [`guard`], with a mesh to change.
-pub(super) fn guard_mesh_mut(
-    mesh: HolefillMesh,
-    error: *mut HolefillError,
-    body: impl FnOnce(&mut MeshObject) -> Result<(), Failure>,
-) -> HolefillStatus {
-    guard(error, || with_mesh_mut(mesh.id, body))
-}
-
-/// As [`guard`], with a plan.
-pub(super) fn guard_plan(
-    plan: HolefillPlan,
-    error: *mut HolefillError,
-    body: impl FnOnce(&PlanObject) -> Result<(), Failure>,
-) -> HolefillStatus {
-    guard(error, || with_plan(plan.id, body))
-}
-
-/// As [`guard`], with a report.
-pub(super) fn guard_report(
-    report: HolefillReport,
-    error: *mut HolefillError,
-    body: impl FnOnce(&FillReport) -> Result<(), Failure>,
-) -> HolefillStatus {
-    guard(error, || with_report(report.id, body))
+/// Frees an object.
+pub(super) fn guard_free(handle: impl Handle) -> HolefillStatus {
+    guard(std::ptr::null_mut(), || free(handle))
 }
 
 fn contained<S>(body: impl FnOnce() -> Result<S, Failure>) -> Result<S, Failure> {
@@ -108,10 +79,11 @@ fn contained<S>(body: impl FnOnce() -> Result<S, Failure>) -> Result<S, Failure>
 fn describe(error: *mut HolefillError, failure: Failure) -> Result<(), Failure> {
     // SAFETY: `error` is not null, and points to a handle of the caller.
     let known = unsafe { error.read_unaligned() };
-    if let Some(object) = TABLE.get(ERROR, known.id)
-        && let Object::Error(place) = &*object
-    {
-        *place.lock().unwrap_or_else(|e| e.into_inner()) = failure;
+    let replaced = known.with(|place| {
+        *lock(place) = failure.clone();
+        Ok(())
+    });
+    if replaced.is_ok() {
         return Ok(());
     }
     let id = keep(Object::Error(Mutex::new(failure))).unwrap_or(0);

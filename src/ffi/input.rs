@@ -1,7 +1,7 @@
 //! Rows of numbers that are copied from the caller's memory, which may be aligned or not.
 
 use super::failure::{Failure, invalid, not_null};
-use super::rows::{ATTRIBUTE_TYPES, INDEX_TYPES, POINT_TYPES, Rows};
+use super::rows::{INDEX_TYPES, POINT_TYPES, Rows};
 use super::status::{
     HOLEFILL_STATUS_INDEX_OUT_OF_RANGE, HOLEFILL_STATUS_NOT_FINITE, HOLEFILL_STATUS_OUT_OF_MEMORY,
 };
@@ -12,7 +12,7 @@ use rayon::prelude::*;
 ///
 /// # Safety
 /// `input` is null or points to a `HolefillInput`.
-unsafe fn rows(
+pub(super) unsafe fn rows(
     input: *const HolefillInput,
     width: usize,
     allowed: &[HolefillType],
@@ -37,40 +37,25 @@ fn room<T>(count: usize, what: &str) -> Result<Vec<T>, Failure> {
 /// Rows that one task copies: some hundred kilobytes, so that starting it costs nothing.
 const COPIED_ROWS: usize = 1 << 14;
 
-/// The address of the caller's memory, for several threads to read.
-#[derive(Clone, Copy)]
-struct Source(*const u8);
-
-// SAFETY: the memory is only read, and the caller promises that it stays as it is during the call.
-unsafe impl Sync for Source {}
-
-impl Source {
-    /// # Safety
-    /// As `pointer::add`.
-    unsafe fn add(&self, bytes: usize) -> *const u8 {
-        // SAFETY: the caller's promise.
-        unsafe { self.0.add(bytes) }
-    }
-}
-
 /// Fills an empty vector, which has room for them, with copies of rows without gaps. Several threads share the work:
 /// most of it is that memory is used for the first time.
 ///
 /// # Safety
 /// Rows are as long as a `T`, and any bits are a `T`.
 unsafe fn copy_rows<T: Copy + Send>(rows: &Rows, values: &mut Vec<T>) {
-    let source = Source(rows.data.cast_const());
-    let room = &mut values.spare_capacity_mut()[..rows.count];
-    room.par_chunks_mut(COPIED_ROWS)
-        .enumerate()
-        .for_each(|(k, room)| {
-            // SAFETY: the chunk lies within the rows, which were checked; bytes need no alignment.
-            unsafe {
-                let from = source.add(k * COPIED_ROWS * size_of::<T>());
-                let to: *mut u8 = room.as_mut_ptr().cast();
-                std::ptr::copy_nonoverlapping(from, to, size_of_val(room));
-            }
-        });
+    if rows.count == 0 {
+        return;
+    }
+    let chunk = COPIED_ROWS * size_of::<T>();
+    // SAFETY: the rows were checked and have no gaps; bytes need no alignment, and nobody writes to them during the call.
+    let bytes = unsafe { std::slice::from_raw_parts(rows.data, rows.count * rows.stride) };
+    let room = values.spare_capacity_mut()[..rows.count].par_chunks_mut(COPIED_ROWS);
+    room.zip(bytes.par_chunks(chunk)).for_each(|(room, bytes)| {
+        // SAFETY: both are of the same rows.
+        unsafe {
+            std::ptr::copy_nonoverlapping(bytes.as_ptr(), room.as_mut_ptr().cast(), bytes.len())
+        };
+    });
     // SAFETY: all of them were written just now.
     unsafe { values.set_len(rows.count) };
 }
@@ -222,32 +207,12 @@ macro_rules! plain {
 }
 plain!(i8 u8 i16 u16 i32 u32 f32 f64);
 
-/// Columns of numbers in the caller's rows.
-pub(super) struct Columns {
-    pub(super) rows: Rows,
-}
-
-impl Columns {
-    /// Checks rows of `width` numbers.
-    ///
-    /// # Safety
-    /// As [`read_points`]; the memory must stay as it is while the result lives.
-    pub(super) unsafe fn check(
-        input: *const HolefillInput,
-        width: usize,
-        what: &str,
-    ) -> Result<Self, Failure> {
-        // SAFETY: the caller's promise.
-        let rows = unsafe { rows(input, width, ATTRIBUTE_TYPES, what)? };
-        Ok(Self { rows })
-    }
-
-    /// Column `k`, which must exist, as numbers of the type that the rows have.
-    pub(super) fn column<T: Plain>(&self, k: usize, what: &str) -> Result<Vec<T>, Failure> {
-        let mut values = room(self.rows.count, what)?;
-        // SAFETY: the rows were checked, and any bits are a `T`.
-        let number = |i| unsafe { self.rows.at::<T>(i, k).read_unaligned() };
-        values.extend((0..self.rows.count).map(number));
-        Ok(values)
-    }
+/// Column `k` of rows, which must exist, as numbers of the type that the rows have.
+pub(super) fn copy_column<T: Plain>(rows: &Rows, k: usize, what: &str) -> Result<Vec<T>, Failure> {
+    let mut values = room(rows.count, what)?;
+    debug_assert_eq!(size_of::<T>(), rows.scalar_size);
+    // SAFETY: the rows were checked, and any bits are a `T`.
+    let number = |i| unsafe { rows.at::<T>(i, k).read_unaligned() };
+    values.extend((0..rows.count).map(number));
+    Ok(values)
 }

@@ -1,17 +1,17 @@
 //! Boundary loops: counted, described, found and chosen.
 
-use super::failure::{Failure, not_found, nth};
-use super::guard::{guard_mesh, guard_silent};
+use super::failure::{Failure, invalid, invalid_struct, not_found, nth};
+use super::guard::guard_with;
 use super::input::{read_indices, read_optional_indices};
 use super::objects::MeshObject;
 use super::output::{write, write_indices, write_list};
 use super::status::{HOLEFILL_STATUS_INDEX_OUT_OF_RANGE, HolefillStatus};
-use super::structs::{blank, init_struct, read_struct, write_struct};
+use super::structs::{read_struct, write_struct};
 use super::types::*;
-use crate::boundary::classify::LoopClass;
-use crate::boundary::loops::BoundaryLoop;
+use crate::boundary::boundary_loop::BoundaryLoop;
+use crate::boundary::boundary_loop::LoopClass;
 use crate::boundary::select::Selection;
-use crate::fill::session::FillSession;
+use crate::fill::session::{FillSession, Target};
 
 pub(super) fn class_number(class: LoopClass) -> HolefillClass {
     match class {
@@ -28,21 +28,6 @@ fn find_loop(object: &MeshObject, id: u64) -> Result<&BoundaryLoop, Failure> {
     nth(&object.session.boundary().loops, id, "loop")
 }
 
-/// Writes a list of ids and its length.
-///
-/// # Safety
-/// As [`write_list`].
-unsafe fn write_ids(
-    found: &[usize],
-    ids: *mut u64,
-    capacity: u64,
-    count: *mut u64,
-) -> Result<(), Failure> {
-    let found: Vec<u64> = found.iter().map(|&id| id as u64).collect();
-    // SAFETY: the caller's promise.
-    unsafe { write_list(&found, &[], (ids, capacity, "ids"), (count, "count")) }
-}
-
 /// Number of boundary loops that the mesh was made with. Their ids are the numbers below it. They keep them whatever is
 /// filled or undone: a loop that a fill has closed stays in the list and says so in `is_open`.
 ///
@@ -53,7 +38,7 @@ pub unsafe extern "C" fn holefill_mesh_loop_count(
     count: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         let loops = object.session.boundary().loops.len();
         // SAFETY: the caller's promise.
         unsafe { write(count, loops as u64, "count") }
@@ -70,7 +55,7 @@ pub unsafe extern "C" fn holefill_mesh_loop_info(
     info: *mut HolefillLoopInfo,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         let l = find_loop(object, loop_id)?;
         let value = HolefillLoopInfo {
             loop_id,
@@ -83,7 +68,7 @@ pub unsafe extern "C" fn holefill_mesh_loop_info(
             planarity: l.planarity,
             loop_class: class_number(l.class),
             is_open: object.session.is_open(l.id).into(),
-            ..blank()
+            ..Default::default()
         };
         // SAFETY: the caller's promise.
         unsafe { write_struct(info, &value, "info") }
@@ -103,32 +88,14 @@ pub unsafe extern "C" fn holefill_mesh_read_loop(
     output: *const HolefillOutput,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         let (vertices, _) = find_loop(object, loop_id)?.vertices.as_chunks::<1>();
         // SAFETY: the caller's promise.
         unsafe { write_indices(output, first, vertices) }
     })
 }
 
-/// The loop through the boundary edge from vertex `from` to vertex `to`, as it runs in its triangle.
-///
-/// Statuses: `NOT_FOUND`; the message says when the edge runs the other way.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn holefill_mesh_find_edge(
-    mesh: HolefillMesh,
-    from: u64,
-    to: u64,
-    loop_id: *mut u64,
-    error: *mut HolefillError,
-) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
-        let id = loop_of_edge(&object.session, [from, to])?;
-        // SAFETY: the caller's promise.
-        unsafe { write(loop_id, id as u64, "loop_id") }
-    })
-}
-
-pub(super) fn loop_of_edge(session: &FillSession, edge: [u64; 2]) -> Result<usize, Failure> {
+fn loop_of_edge(session: &FillSession, edge: [u64; 2]) -> Result<usize, Failure> {
     let count = session.mesh().positions().len();
     if let Some(v) = edge.into_iter().find(|&v| v >= count as u64) {
         let message = format!("there is no vertex {v} among {count}");
@@ -139,77 +106,98 @@ pub(super) fn loop_of_edge(session: &FillSession, edge: [u64; 2]) -> Result<usiz
         .map_err(|e| not_found(e.to_string()))
 }
 
-/// The loops that the closed chain `vertices` consists of: rows of one, of 32 or 64 bits, the last joined to the first.
-/// It may start anywhere and run either way. Where it visits a vertex twice it passes through more than one loop: loops
-/// are cut where the boundary touches itself.
+/// The loops that `target` names, as `holefill_mesh_fill` takes it; null is every open loop.
 ///
-/// `ids` gets the ids, ascending, and `count` their number, also when they do not fit into `capacity`. With `ids` null
-/// and `capacity` 0 only the number is written.
+/// `ids` gets the ids, ascending but for those that the target lists itself, and `count` their number, also when they do
+/// not fit into `capacity`. With `ids` null and `capacity` 0 only the number is written.
 ///
-/// Statuses: `NOT_FOUND` when the edges of the chain are not all edges of some loops, `BUFFER_TOO_SMALL`.
+/// Statuses: `NOT_FOUND` for a loop, an edge or a chain that the mesh does not have; for an edge that runs the other way
+/// the message says so. `INVALID_ARGUMENT` for an unknown kind of target or an edge of the rules that is on no loop;
+/// `BUFFER_TOO_SMALL`.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn holefill_mesh_find_vertices(
+pub unsafe extern "C" fn holefill_mesh_find_loops(
     mesh: HolefillMesh,
-    vertices: *const HolefillInput,
+    target: *const HolefillTarget,
     ids: *mut u64,
     capacity: u64,
     count: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
-        // SAFETY: the caller's promise.
-        unsafe {
-            let found = loops_of_vertices(&object.session, vertices)?;
-            write_ids(&found, ids, capacity, count)
-        }
-    })
-}
-
-/// # Safety
-/// `vertices` is null or describes memory of the caller.
-pub(super) unsafe fn loops_of_vertices(
-    session: &FillSession,
-    vertices: *const HolefillInput,
-) -> Result<Vec<usize>, Failure> {
-    // SAFETY: the caller's promise.
-    let vertices = unsafe { read_indices::<1>(vertices, "vertices")? };
-    session
-        .loops_with_vertices(vertices.as_flattened())
-        .map_err(|e| not_found(e.to_string()))
-}
-
-/// The loops that the rules choose among those that are open.
-///
-/// `selection` may be null: all open loops. `ids`, `capacity` and `count` as in `holefill_mesh_find_vertices`.
-///
-/// Statuses: `INVALID_ARGUMENT` when an edge of the rules is on no loop, `BUFFER_TOO_SMALL`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn holefill_mesh_select(
-    mesh: HolefillMesh,
-    selection: *const HolefillSelection,
-    ids: *mut u64,
-    capacity: u64,
-    count: *mut u64,
-    error: *mut HolefillError,
-) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
-        // SAFETY: the caller's promise.
-        let rules = unsafe { read_selection(selection)? };
+    guard_with(mesh, error, |object| {
         let session = &object.session;
-        let kept = rules.reasons_to_keep(session.boundary())?;
-        let chosen: Vec<usize> = (0..kept.len())
-            .filter(|&id| kept[id].is_none() && session.is_open(id))
-            .collect();
         // SAFETY: the caller's promise.
-        unsafe { write_ids(&chosen, ids, capacity, count) }
+        let found = match unsafe { Wish::read(target, session)? } {
+            Wish::Loops(ids) => ids,
+            Wish::Selected(rules) => {
+                let kept = rules.reasons_to_keep(session.boundary())?;
+                let is_chosen = |&id: &usize| kept[id].is_none() && session.is_open(id);
+                (0..kept.len()).filter(is_chosen).collect()
+            }
+        };
+        let found: Vec<u64> = found.iter().map(|&id| id as u64).collect();
+        // SAFETY: the caller's promise.
+        unsafe { write_list(&found, &[], (ids, capacity, "ids"), (count, "count")) }
     })
+}
+
+/// Which holes a call is about, found in the mesh.
+pub(super) enum Wish {
+    Loops(Vec<usize>),
+    Selected(Selection),
+}
+
+impl Wish {
+    /// Reads what the caller points to, and finds it in the mesh. That a loop exists is checked here: it has a status of
+    /// its own.
+    ///
+    /// # Safety
+    /// `target` is null or points to a struct as its first fields say, whose pointers are the caller's.
+    pub(super) unsafe fn read(
+        target: *const HolefillTarget,
+        session: &FillSession,
+    ) -> Result<Self, Failure> {
+        // SAFETY: the caller's promise.
+        let Some(target) = (unsafe { read_struct(target, "target")? }) else {
+            return Ok(Self::Selected(Selection::default()));
+        };
+        if target.reserved != 0 {
+            return Err(invalid_struct(
+                "target has a reserved field that is not zero",
+            ));
+        }
+        let loops = &session.boundary().loops;
+        // SAFETY: the caller's promise, for every pointer.
+        unsafe {
+            Ok(match target.kind {
+                HOLEFILL_TARGET_SELECTED => Self::Selected(read_selection(target.selection)?),
+                HOLEFILL_TARGET_LOOP => Self::Loops(vec![nth(loops, target.loop_id, "loop")?.id]),
+                HOLEFILL_TARGET_EDGE => Self::Loops(vec![loop_of_edge(session, target.edge)?]),
+                HOLEFILL_TARGET_VERTICES => {
+                    let chain = read_indices::<1>(target.ids, "ids")?;
+                    let found = session.loops_with_vertices(chain.as_flattened());
+                    Self::Loops(found.map_err(|e| not_found(e.to_string()))?)
+                }
+                HOLEFILL_TARGET_LOOPS => {
+                    let ids = read_indices::<1>(target.ids, "ids")?.into_iter();
+                    let known = ids.map(|[id]| Ok(nth(loops, id.into(), "loop")?.id));
+                    Self::Loops(known.collect::<Result<_, Failure>>()?)
+                }
+                kind => return Err(invalid(format!("there is no kind {kind} of target"))),
+            })
+        }
+    }
+
+    pub(super) fn target(&self) -> Target<'_> {
+        match self {
+            Self::Loops(ids) => Target::Loops(ids),
+            Self::Selected(selection) => Target::Selected(selection),
+        }
+    }
 }
 
 /// # Safety
 /// `selection` is null or points to a struct as its first fields say, whose pointers are the caller's.
-pub(super) unsafe fn read_selection(
-    selection: *const HolefillSelection,
-) -> Result<Selection, Failure> {
+unsafe fn read_selection(selection: *const HolefillSelection) -> Result<Selection, Failure> {
     // SAFETY: the caller's promise.
     let Some(rules) = (unsafe { read_struct(selection, "selection")? }) else {
         return Ok(Selection::default());
@@ -224,14 +212,4 @@ pub(super) unsafe fn read_selection(
         max_perimeter: (rules.max_perimeter != 0.0).then_some(rules.max_perimeter),
         keep_largest: usize::try_from(rules.keep_largest).unwrap_or(usize::MAX),
     })
-}
-
-/// Makes `selection` one that chooses every open loop. `struct_size` is `sizeof(HolefillSelection)` of the caller.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn holefill_selection_init(
-    selection: *mut HolefillSelection,
-    struct_size: u32,
-) -> HolefillStatus {
-    // SAFETY: the caller's promise.
-    guard_silent(|| unsafe { init_struct(selection, struct_size, "selection") })
 }

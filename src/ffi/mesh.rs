@@ -1,15 +1,13 @@
 //! Meshes: made from arrays or a polyline, and read.
 
 use super::failure::{Failure, not_null};
-use super::guard::{guard, guard_mesh, guard_silent};
+use super::guard::{guard, guard_free, guard_with};
 use super::input::{check_finite, read_finite, read_indices, read_optional, read_points};
-use super::objects::{MESH, Object, free};
+use super::objects::Object;
 use super::output::{hand_out, write_indices, write_points};
 use super::status::{HOLEFILL_STATUS_INDEX_OUT_OF_RANGE, HolefillStatus};
-use super::structs::{blank, write_struct};
-use super::types::{
-    HolefillDefects, HolefillError, HolefillInput, HolefillMesh, HolefillMeshInfo, HolefillOutput,
-};
+use super::structs::write_struct;
+use super::types::*;
 use crate::fill::session::FillSession;
 use crate::mesh::trimesh::TriMesh;
 
@@ -102,7 +100,7 @@ pub unsafe extern "C" fn holefill_mesh_from_polyline(
 /// its memory is freed when they are done. Plans and reports made with it stay.
 #[unsafe(no_mangle)]
 pub extern "C" fn holefill_mesh_free(mesh: HolefillMesh) -> HolefillStatus {
-    guard_silent(|| free(MESH, mesh.id))
+    guard_free(mesh)
 }
 
 /// The size of a mesh.
@@ -112,7 +110,7 @@ pub unsafe extern "C" fn holefill_mesh_info(
     info: *mut HolefillMeshInfo,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         let mesh = object.session.mesh();
         let value = HolefillMeshInfo {
             vertex_count: mesh.positions().len() as u64,
@@ -121,7 +119,7 @@ pub unsafe extern "C" fn holefill_mesh_info(
             input_triangle_count: object.input[1] as u64,
             undo_count: object.session.undo_count() as u64,
             is_polyline: object.session.is_polyline().into(),
-            ..blank()
+            ..Default::default()
         };
         // SAFETY: the caller's promise.
         unsafe { write_struct(info, &value, "info") }
@@ -135,7 +133,7 @@ pub unsafe extern "C" fn holefill_mesh_defects(
     defects: *mut HolefillDefects,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         let found = object.session.mesh().defects();
         let value = HolefillDefects {
             nonmanifold_edges: found.nonmanifold_edges.count as u64,
@@ -143,7 +141,7 @@ pub unsafe extern "C" fn holefill_mesh_defects(
             degenerate_triangles: found.degenerate_faces.count as u64,
             duplicate_triangles: found.duplicate_faces.count as u64,
             isolated_vertices: found.isolated_vertices.count as u64,
-            ..blank()
+            ..Default::default()
         };
         // SAFETY: the caller's promise.
         unsafe { write_struct(defects, &value, "defects") }
@@ -157,7 +155,7 @@ pub unsafe extern "C" fn holefill_mesh_prepare(
     mesh: HolefillMesh,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         object.session.prepare();
         Ok(())
     })
@@ -174,7 +172,7 @@ pub unsafe extern "C" fn holefill_mesh_read_positions(
     output: *const HolefillOutput,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         // SAFETY: the caller's promise.
         unsafe { write_points(output, first, object.session.mesh().positions()) }
     })
@@ -191,7 +189,7 @@ pub unsafe extern "C" fn holefill_mesh_read_triangles(
     output: *const HolefillOutput,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_mesh(mesh, error, |object| {
+    guard_with(mesh, error, |object| {
         // SAFETY: the caller's promise.
         unsafe { write_indices(output, first, object.session.mesh().triangles()) }
     })

@@ -9,8 +9,8 @@
 //!
 //! Every function runs in a guard that turns panics into a status and failures into error objects.
 //!
-//! The files lie in layers. Each uses only files that stand before it:
-//! `status`, `types`, `failure`; `handles`, `shared`, `objects`, `guard`; `rows`, `input`, `output`, `text`, `structs`;
+//! The files lie in layers. Each uses only files that are named before it:
+//! `status`, `types`, `failure`; `sync`, `handles`, `shared`, `objects`, `guard`; `rows`, `input`, `output`, `text`, `structs`;
 //! `version`, `error`, `callbacks`, `options`, `attributes`, `mesh`, `points`, `loops`, `fill`, `plan`, `report`.
 #![allow(unsafe_code)]
 // The promise is the same for all functions and stands above and at the head of the header.
@@ -36,19 +36,12 @@ mod rows;
 mod shared;
 mod status;
 mod structs;
+mod sync;
 #[cfg(test)]
 mod tests;
 mod text;
 mod types;
 mod version;
-
-/// The primitives that `handles` and `shared` are built on; the model checker has its own.
-mod sync {
-    pub(super) use std::sync::atomic::{AtomicBool, Ordering};
-    pub(super) use std::sync::{
-        Arc, Mutex, MutexGuard, RwLock, RwLockReadGuard, RwLockWriteGuard, TryLockError,
-    };
-}
 
 pub use attributes::*;
 pub use error::*;

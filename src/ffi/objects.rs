@@ -7,11 +7,11 @@ use super::status::{
     HOLEFILL_STATUS_BUSY, HOLEFILL_STATUS_INVALID_HANDLE, HOLEFILL_STATUS_LIMIT,
     HOLEFILL_STATUS_POISONED,
 };
-use super::types::HolefillType;
+use super::types::*;
 use crate::fill::report::FillReport;
 use crate::fill::session::{FillPlan, FillSession, PlannedPatch};
 use crate::options::FillOptions;
-use std::sync::{Arc, LazyLock, Mutex, OnceLock};
+use std::sync::{LazyLock, Mutex, MutexGuard, OnceLock};
 
 /// A mesh that C has a handle of.
 pub(super) struct MeshObject {
@@ -66,12 +66,6 @@ impl PlanObject {
     }
 }
 
-pub(super) const MESH: u8 = 1;
-pub(super) const PLAN: u8 = 2;
-pub(super) const REPORT: u8 = 3;
-pub(super) const PARAMETERS: u8 = 4;
-pub(super) const ERROR: u8 = 5;
-
 /// An object that C holds a handle of. Its kind is that of the handle.
 pub(super) enum Object {
     Mesh(Box<Shared<MeshObject>>),
@@ -84,16 +78,6 @@ pub(super) enum Object {
 impl Object {
     pub(super) fn mesh(session: FillSession) -> Self {
         Self::from(MeshObject::new(session))
-    }
-
-    fn kind(&self) -> u8 {
-        match self {
-            Self::Mesh(_) => MESH,
-            Self::Plan(_) => PLAN,
-            Self::Report(_) => REPORT,
-            Self::Parameters(_) => PARAMETERS,
-            Self::Error(_) => ERROR,
-        }
     }
 }
 
@@ -119,28 +103,16 @@ pub(super) fn keep(object: Object) -> Result<u64, Failure> {
         .map_err(|_| Failure::new(HOLEFILL_STATUS_LIMIT, "there are too many handles"))
 }
 
-/// The living object of a handle.
-pub(super) fn find(kind: u8, handle: u64) -> Result<Arc<Object>, Failure> {
-    TABLE.get(kind, handle).ok_or_else(|| invalid_handle(kind))
-}
-
 /// Ends the life of an object. The handle 0 is none, and may be freed.
-pub(super) fn free(kind: u8, handle: u64) -> Result<(), Failure> {
-    match handle == 0 || TABLE.remove(kind, handle).is_some() {
+pub(super) fn free<H: Handle>(handle: H) -> Result<(), Failure> {
+    match handle.id() == 0 || TABLE.remove(H::KIND, handle.id()).is_some() {
         true => Ok(()),
-        false => Err(invalid_handle(kind)),
+        false => Err(unknown::<H>()),
     }
 }
 
-pub(super) fn invalid_handle(kind: u8) -> Failure {
-    let noun = match kind {
-        MESH => "mesh",
-        PLAN => "plan",
-        REPORT => "report",
-        PARAMETERS => "set of parameters",
-        _ => "error",
-    };
-    let message = format!("the handle is that of no living {noun}");
+fn unknown<H: Handle>() -> Failure {
+    let message = format!("the handle is that of no living {}", H::NOUN);
     Failure::new(HOLEFILL_STATUS_INVALID_HANDLE, message)
 }
 
@@ -151,34 +123,70 @@ fn refused(refusal: Refusal) -> Failure {
     })
 }
 
-macro_rules! with_object {
-    ($(#[$doc:meta] $name:ident($kind:ident $variant:ident: $given:ty) by $body:ident, $object:ident => $call:expr;)*) => {
+/// What is behind a lock that is held for a moment only. It is sound after every statement, so a panic meanwhile does
+/// not matter.
+pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(|e| e.into_inner())
+}
+
+/// A handle as C has it, and what it stands for.
+pub(super) trait Handle: Copy {
+    type Object;
+    const KIND: u8;
+    /// What it is called in messages.
+    const NOUN: &'static str;
+
+    fn id(self) -> u64;
+
+    /// Calls `body` with the living object of the handle.
+    fn with<R>(self, body: impl FnOnce(&Self::Object) -> Result<R, Failure>) -> Result<R, Failure>;
+}
+
+macro_rules! handles {
+    ($($handle:ident $kind:literal $noun:literal $variant:ident($object:ident: $given:ty) => $read:expr;)*) => {
         $(
-            #[$doc]
-            pub(super) fn $name<R>(
-                handle: u64,
-                $body: impl FnOnce($given) -> Result<R, Failure>,
-            ) -> Result<R, Failure> {
-                match &*find($kind, handle)? {
-                    Object::$variant($object) => $call,
-                    _ => Err(invalid_handle($kind)),
+            impl Handle for $handle {
+                type Object = $given;
+                const KIND: u8 = $kind;
+                const NOUN: &'static str = $noun;
+
+                fn id(self) -> u64 {
+                    self.id
+                }
+
+                fn with<R>(self, body: impl FnOnce(&$given) -> Result<R, Failure>) -> Result<R, Failure> {
+                    match TABLE.get($kind, self.id).as_deref() {
+                        Some(Object::$variant($object)) => body($read),
+                        _ => Err(unknown::<Self>()),
+                    }
                 }
             }
         )*
+
+        impl Object {
+            fn kind(&self) -> u8 {
+                match self {
+                    $(Self::$variant(_) => $kind,)*
+                }
+            }
+        }
     };
 }
-with_object! {
-    /// Calls `body` with a mesh to read.
-    with_mesh(MESH Mesh: &MeshObject) by body, mesh => body(&*mesh.read().map_err(refused)?);
-    /// Calls `body` with a mesh to change.
-    with_mesh_mut(MESH Mesh: &mut MeshObject) by body, mesh => body(&mut *mesh.write().map_err(refused)?);
-    /// Calls `body` with a plan.
-    with_plan(PLAN Plan: &PlanObject) by body, plan => body(plan);
-    /// Calls `body` with a report.
-    with_report(REPORT Report: &FillReport) by body, report => body(report);
-    /// Calls `body` with a set of parameters. Other threads wait for that moment.
-    with_parameters(PARAMETERS Parameters: &mut FillOptions) by body, options =>
-        body(&mut options.lock().unwrap_or_else(|e| e.into_inner()));
-    /// Calls `body` with an error.
-    with_error(ERROR Error: &Failure) by body, error => body(&error.lock().unwrap_or_else(|e| e.into_inner()));
+handles! {
+    HolefillMesh 1 "mesh" Mesh(mesh: MeshObject) => &*mesh.read().map_err(refused)?;
+    HolefillPlan 2 "plan" Plan(plan: PlanObject) => plan;
+    HolefillReport 3 "report" Report(report: FillReport) => report;
+    HolefillParameters 4 "set of parameters" Parameters(options: Mutex<FillOptions>) => options;
+    HolefillError 5 "error" Error(failure: Mutex<Failure>) => failure;
+}
+
+/// Calls `body` with a mesh to change.
+pub(super) fn with_mesh_mut<R>(
+    mesh: HolefillMesh,
+    body: impl FnOnce(&mut MeshObject) -> Result<R, Failure>,
+) -> Result<R, Failure> {
+    match TABLE.get(HolefillMesh::KIND, mesh.id).as_deref() {
+        Some(Object::Mesh(object)) => body(&mut *object.write().map_err(refused)?),
+        _ => Err(unknown::<HolefillMesh>()),
+    }
 }

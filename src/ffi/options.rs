@@ -2,11 +2,11 @@
 
 use super::callbacks::Callbacks;
 use super::failure::{Failure, invalid, not_found};
-use super::guard::{guard, guard_silent, guard_value};
-use super::objects::{Object, PARAMETERS, free, with_parameters};
+use super::guard::{guard, guard_free, guard_value, guard_with};
+use super::objects::{Handle as _, Object, lock};
 use super::output::hand_out;
 use super::status::{HOLEFILL_STATUS_LIMIT, HolefillStatus};
-use super::structs::{init_struct, read_struct};
+use super::structs::read_struct;
 use super::text::{owned, read_optional_text, read_text, write_text};
 use super::types::{HolefillError, HolefillFillOptions, HolefillParameters};
 use crate::methods::method::Method;
@@ -26,12 +26,10 @@ pub(super) unsafe fn read_options(
     options: *const HolefillFillOptions,
 ) -> Result<(FillOptions, Callbacks), Failure> {
     // SAFETY: the caller's promise.
-    let Some(given) = (unsafe { read_struct(options, "options")? }) else {
-        return Ok((FillOptions::default(), Callbacks::none()));
-    };
+    let given = unsafe { read_struct(options, "options")? }.unwrap_or_default();
     let mut read = match given.parameters.id {
         0 => FillOptions::default(),
-        id => with_parameters(id, |parameters| Ok(parameters.clone()))?,
+        _ => given.parameters.with(|options| Ok(lock(options).clone()))?,
     };
     // SAFETY: the caller's promise.
     if let Some(method) = unsafe { read_optional_text(given.method, "method")? } {
@@ -40,39 +38,28 @@ pub(super) unsafe fn read_options(
     read.seed = given.seed;
     read.threads = check_threads(given.threads)?;
     // The ranges of the parameters hold for the fields too.
-    if given.time_budget != 0.0 {
-        read.set("fill.time-budget", &given.time_budget.to_string())?;
-    }
-    if given.density != 0.0 {
-        read.set("refine.density", &given.density.to_string())?;
-    }
-    if given.max_new_vertices != 0 {
-        let most = given.max_new_vertices.to_string();
-        read.set("refine.max-vertices", &most)?;
+    let (seconds, density, most) = (given.time_budget, given.density, given.max_new_vertices);
+    for (is_given, name, value) in [
+        (seconds != 0.0, "fill.time-budget", seconds.to_string()),
+        (density != 0.0, "refine.density", density.to_string()),
+        (most != 0, "refine.max-vertices", most.to_string()),
+    ] {
+        if is_given {
+            read.set(name, &value)?;
+        }
     }
     // SAFETY: the caller's promise is that both can be called during the call.
-    Ok((read, unsafe { Callbacks::new(&given) }))
+    Ok((read, unsafe { Callbacks::new(given) }))
 }
 
-/// How many threads a caller asks for.
-pub(super) fn check_threads(threads: u32) -> Result<usize, Failure> {
-    if threads > MOST_THREADS {
-        return Err(Failure::new(
+fn check_threads(threads: u32) -> Result<usize, Failure> {
+    match threads > MOST_THREADS {
+        true => Err(Failure::new(
             HOLEFILL_STATUS_LIMIT,
             format!("at most {MOST_THREADS} threads, not {threads}"),
-        ));
+        )),
+        false => Ok(threads as usize),
     }
-    Ok(threads as usize)
-}
-
-/// Makes `options` the defaults. `struct_size` is `sizeof(HolefillFillOptions)` of the caller.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn holefill_fill_options_init(
-    options: *mut HolefillFillOptions,
-    struct_size: u32,
-) -> HolefillStatus {
-    // SAFETY: the caller's promise.
-    guard_silent(|| unsafe { init_struct(options, struct_size, "options") })
 }
 
 /// Makes a set of parameters with their defaults.
@@ -91,7 +78,7 @@ pub unsafe extern "C" fn holefill_parameters_new(
 /// Frees a set of parameters. The handle 0 is allowed. Calls that were given it have read it already.
 #[unsafe(no_mangle)]
 pub extern "C" fn holefill_parameters_free(parameters: HolefillParameters) -> HolefillStatus {
-    guard_silent(|| free(PARAMETERS, parameters.id))
+    guard_free(parameters)
 }
 
 /// Sets a parameter by its name to a value in text, as `holefill_parameter_allowed` describes it.
@@ -108,11 +95,13 @@ pub unsafe extern "C" fn holefill_parameters_set(
     guard(error, || {
         // SAFETY: the caller's promise.
         let (name, value) = unsafe { (read_text(name, "name")?, read_text(value, "value")?) };
-        with_parameters(parameters.id, |options| {
-            options.set(name, value).map_err(|e| match find(name) {
-                Some(_) => invalid(e.to_string()),
-                None => not_found(e.to_string()),
-            })
+        parameters.with(|options| {
+            lock(options)
+                .set(name, value)
+                .map_err(|e| match find(name) {
+                    Some(_) => invalid(e.to_string()),
+                    None => not_found(e.to_string()),
+                })
         })
     })
 }
@@ -129,15 +118,13 @@ pub unsafe extern "C" fn holefill_parameters_get(
     length: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard(error, || {
+    guard_with(parameters, error, |options| {
         // SAFETY: the caller's promise.
         let name = unsafe { read_text(name, "name")? };
-        with_parameters(parameters.id, |options| {
-            let unknown = || not_found(format!("there is no parameter '{name}'"));
-            let value = find(name).ok_or_else(unknown)?.value(options);
-            // SAFETY: the caller's promise.
-            unsafe { write_text(&value, buffer, capacity, length) }
-        })
+        let unknown = || not_found(format!("there is no parameter '{name}'"));
+        let value = find(name).ok_or_else(unknown)?.value(&lock(options));
+        // SAFETY: the caller's promise.
+        unsafe { write_text(&value, buffer, capacity, length) }
     })
 }
 

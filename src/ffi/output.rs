@@ -74,23 +74,17 @@ pub(super) struct Sink {
     pub(super) range: Range<usize>,
 }
 
-/// What is asked of a [`Sink`]: rows of `width` numbers of one of the types `allowed`, from row `first` on, of which
-/// there are `total`.
-pub(super) struct Wanted<'a> {
-    pub(super) first: u64,
-    pub(super) total: usize,
-    pub(super) width: usize,
-    pub(super) allowed: &'a [HolefillType],
-}
-
 impl Sink {
-    /// Checks where to write.
+    /// Checks where to write: rows of `width` numbers of one of the types `allowed`, from row `first` on, of which there
+    /// are `total`.
     ///
     /// # Safety
     /// `output` is null or describes memory of the caller.
     pub(super) unsafe fn check(
         output: *const HolefillOutput,
-        wanted: &Wanted<'_>,
+        first: u64,
+        total: usize,
+        (width, allowed): (usize, &[HolefillType]),
     ) -> Result<Self, Failure> {
         not_null(output, "output")?;
         // SAFETY: not null, and the caller's promise.
@@ -102,8 +96,7 @@ impl Sink {
             scalar_type: view.scalar_type,
             reserved: view.reserved,
         };
-        let rows = Rows::check(as_input, wanted.width, wanted.allowed, "output")?;
-        let (first, total) = (wanted.first, wanted.total);
+        let rows = Rows::check(as_input, width, allowed, "output")?;
         let end = first.checked_add(view.count);
         if end.is_none_or(|end| end > total as u64) {
             let count = view.count;
@@ -144,14 +137,8 @@ pub(super) unsafe fn write_points(
     first: u64,
     points: &[[f64; 3]],
 ) -> Result<(), Failure> {
-    let wanted = Wanted {
-        first,
-        total: points.len(),
-        width: 3,
-        allowed: POINT_TYPES,
-    };
     // SAFETY: the caller's promise.
-    let sink = unsafe { Sink::check(output, &wanted)? };
+    let sink = unsafe { Sink::check(output, first, points.len(), (3, POINT_TYPES))? };
     for (i, point) in points[sink.range.clone()].iter().enumerate() {
         for (k, &value) in point.iter().enumerate() {
             match sink.is_of(HOLEFILL_TYPE_F32) {
@@ -172,14 +159,8 @@ pub(super) unsafe fn write_indices<const N: usize>(
     first: u64,
     rows: &[[u32; N]],
 ) -> Result<(), Failure> {
-    let wanted = Wanted {
-        first,
-        total: rows.len(),
-        width: N,
-        allowed: INDEX_TYPES,
-    };
     // SAFETY: the caller's promise.
-    let sink = unsafe { Sink::check(output, &wanted)? };
+    let sink = unsafe { Sink::check(output, first, rows.len(), (N, INDEX_TYPES))? };
     let rows = &rows[sink.range.clone()];
     let largest = rows.as_flattened().iter().copied().max().unwrap_or(0);
     if sink.is_of(HOLEFILL_TYPE_I32) && largest > i32::MAX as u32 {

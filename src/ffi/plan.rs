@@ -1,17 +1,15 @@
 //! Planning patches without changing the mesh, reading them, and applying them.
 
 use super::failure::{Failure, not_null};
-use super::fill::{Wish, change, status_of};
-use super::guard::{guard, guard_plan, guard_silent};
-use super::objects::{Object, PLAN, PlanObject, free, with_mesh, with_mesh_mut, with_plan};
+use super::fill::{change, status_of};
+use super::guard::{guard, guard_free, guard_with};
+use super::loops::Wish;
+use super::objects::{Handle as _, Object, PlanObject, with_mesh_mut};
 use super::options::read_options;
 use super::output::{hand_out, write_indices, write_points};
 use super::status::{HOLEFILL_STATUS_STALE_PLAN, HolefillStatus};
-use super::structs::{blank, write_struct};
-use super::types::{
-    HolefillError, HolefillFillOptions, HolefillMesh, HolefillOutput, HolefillPatchInfo,
-    HolefillPlan, HolefillReport, HolefillTarget,
-};
+use super::structs::write_struct;
+use super::types::*;
 use crate::error::ErrorKind;
 use crate::fill::session::FillSession;
 
@@ -36,7 +34,7 @@ pub unsafe extern "C" fn holefill_mesh_plan(
         not_null(plan.cast_const(), "plan")?;
         // SAFETY: the caller's promise.
         let (options, callbacks) = unsafe { read_options(options)? };
-        let planned = with_mesh(mesh.id, |object| {
+        let planned = mesh.with(|object| {
             let session = &object.session;
             // SAFETY: the caller's promise.
             let wish = unsafe { Wish::read(target, session)? };
@@ -71,7 +69,7 @@ pub unsafe extern "C" fn holefill_plan_apply(
     guard(error, || {
         // SAFETY: the caller's promise.
         let (_, callbacks) = unsafe { read_options(options)? };
-        let filled = with_plan(plan.id, |object| {
+        let filled = plan.with(|object| {
             let apply = |session: &mut FillSession| {
                 let applied =
                     callbacks.with_progress(|progress| session.apply(&object.plan, progress));
@@ -83,7 +81,7 @@ pub unsafe extern "C" fn holefill_plan_apply(
                 })
             };
             // SAFETY: the caller's promise.
-            with_mesh_mut(mesh.id, |mesh| unsafe { change(mesh, report, apply) })
+            with_mesh_mut(mesh, |mesh| unsafe { change(mesh, report, apply) })
         })?;
         callbacks.log(&filled);
         Ok(status_of(&filled))
@@ -98,7 +96,7 @@ pub unsafe extern "C" fn holefill_plan_report(
     report: *mut HolefillReport,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_plan(plan, error, |object| {
+    guard_with(plan, error, |object| {
         let kept = Object::Report(object.plan.report().clone());
         // SAFETY: the caller's promise.
         unsafe { hand_out(kept, report, "report") }
@@ -116,13 +114,13 @@ pub unsafe extern "C" fn holefill_plan_patch(
     info: *mut HolefillPatchInfo,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_plan(plan, error, |object| {
+    guard_with(plan, error, |object| {
         let patch = object.patch(loop_id)?;
         let value = HolefillPatchInfo {
             first_vertex: patch.first_vertex as u64,
             vertex_count: patch.vertices.len() as u64,
             triangle_count: patch.triangles.len() as u64,
-            ..blank()
+            ..Default::default()
         };
         // SAFETY: the caller's promise.
         unsafe { write_struct(info, &value, "info") }
@@ -141,7 +139,7 @@ pub unsafe extern "C" fn holefill_plan_read_positions(
     output: *const HolefillOutput,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_plan(plan, error, |object| {
+    guard_with(plan, error, |object| {
         // SAFETY: the caller's promise.
         unsafe { write_points(output, first, &object.patch(loop_id)?.vertices) }
     })
@@ -160,7 +158,7 @@ pub unsafe extern "C" fn holefill_plan_read_triangles(
     output: *const HolefillOutput,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_plan(plan, error, |object| {
+    guard_with(plan, error, |object| {
         // SAFETY: the caller's promise.
         unsafe { write_indices(output, first, &object.patch(loop_id)?.triangles) }
     })
@@ -169,5 +167,5 @@ pub unsafe extern "C" fn holefill_plan_read_triangles(
 /// Frees a plan. The handle 0 is allowed.
 #[unsafe(no_mangle)]
 pub extern "C" fn holefill_plan_free(plan: HolefillPlan) -> HolefillStatus {
-    guard_silent(|| free(PLAN, plan.id))
+    guard_free(plan)
 }

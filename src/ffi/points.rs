@@ -1,21 +1,18 @@
 //! Meshes made from points.
 
-use super::attributes::CopiedAttribute;
+use super::attributes::copy_attribute;
 use super::callbacks::Callbacks;
 use super::failure::{Failure, not_null};
 use super::guard::guard;
 use super::input::{read_finite, read_optional};
 use super::objects::MeshObject;
-use super::options::check_threads;
+use super::options::read_options;
 use super::output::hand_out;
 use super::status::HolefillStatus;
-use super::structs::{blank, check_struct, read_struct, write_struct};
-use super::types::{
-    HolefillError, HolefillInput, HolefillMesh, HolefillPointOptions, HolefillPointSummary,
-};
-use crate::fill::pipeline::thread_pool;
+use super::structs::{check_struct, read_struct, write_struct};
+use super::types::*;
 use crate::fill::progress::Watch;
-use crate::fill::session::FillSession;
+use crate::fill::session::{FillSession, thread_pool};
 use crate::job::Job;
 use crate::mesh::trimesh::TriMesh;
 use crate::options::FillOptions;
@@ -34,29 +31,29 @@ struct Given {
 /// # Safety
 /// `options` is null or points to a struct as its first fields say, whose pointers are the caller's.
 unsafe fn read_point_options(options: *const HolefillPointOptions) -> Result<Given, Failure> {
-    let mut read = Given {
-        points: PointOptions::default(),
-        limits: FillOptions::default(),
-        callbacks: Callbacks::none(),
-    };
     // SAFETY: the caller's promise.
-    let Some(given) = (unsafe { read_struct(options, "options")? }) else {
-        return Ok(read);
-    };
+    let given = unsafe { read_struct(options, "options")? }.unwrap_or_default();
+    let mut points = PointOptions::default();
     if given.radius != 0.0 {
-        read.points.radius = Some(given.radius);
+        points.radius = Some(given.radius);
     }
     if given.neighbours != 0 {
-        read.points.neighbours = given.neighbours as usize;
+        points.neighbours = given.neighbours as usize;
     }
-    read.limits.threads = check_threads(given.threads)?;
-    if given.time_budget != 0.0 {
-        read.limits
-            .set("fill.time-budget", &given.time_budget.to_string())?;
-    }
-    // SAFETY: the caller's promise is that it can be called during the call.
-    read.callbacks = unsafe { Callbacks::of_progress(given.progress, given.progress_data) };
-    Ok(read)
+    let limits = HolefillFillOptions {
+        threads: given.threads,
+        time_budget: given.time_budget,
+        progress: given.progress,
+        progress_data: given.progress_data,
+        ..Default::default()
+    };
+    // SAFETY: the caller's promise is that the callback can be called during the call.
+    let (limits, callbacks) = unsafe { read_options(&limits)? };
+    Ok(Given {
+        points,
+        limits,
+        callbacks,
+    })
 }
 
 /// Makes the mesh, on as many threads and for as long as is allowed.
@@ -115,8 +112,7 @@ pub unsafe extern "C" fn holefill_mesh_from_points(
         if !colors.is_null() {
             let count = cloud.positions.len();
             // SAFETY: as above.
-            let copied = unsafe { CopiedAttribute::read("color", 3, colors, count, "colors")? };
-            let (named, columns) = copied.into_columns();
+            let (named, columns) = unsafe { copy_attribute("color", 3, colors, count, "colors")? };
             for (name, values) in columns {
                 cloud.attributes.push(name, values)?;
             }
@@ -136,7 +132,7 @@ pub unsafe extern "C" fn holefill_mesh_from_points(
                 piece_count: report.pieces as u64,
                 estimated_normals: report.estimated_normals as u64,
                 radius: report.radius,
-                ..blank()
+                ..Default::default()
             };
             // SAFETY: not null, and checked before.
             unsafe { write_struct(summary, &value, "summary")? };

@@ -1,13 +1,12 @@
 //! Reading what happened to each hole.
 
 use super::failure::{Failure, not_found, not_null, nth};
-use super::guard::{guard_report, guard_silent};
+use super::guard::{guard_free, guard_with};
 use super::loops::class_number;
-use super::objects::{REPORT, free};
 use super::options::method_text;
 use super::output::write;
 use super::status::HolefillStatus;
-use super::structs::{blank, write_struct};
+use super::structs::write_struct;
 use super::text::{owned, write_text};
 use super::types::*;
 use crate::error::ErrorKind;
@@ -68,7 +67,7 @@ pub unsafe extern "C" fn holefill_report_json(
     length: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_report(report, error, |report| {
+    guard_with(report, error, |report| {
         // SAFETY: the caller's promise.
         unsafe { write_text(&report.to_json(), buffer, capacity, length) }
     })
@@ -81,7 +80,7 @@ pub unsafe extern "C" fn holefill_report_summary(
     summary: *mut HolefillSummary,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_report(report, error, |report| {
+    guard_with(report, error, |report| {
         let count = |status| report.count(status) as u64;
         let sum = |size: fn(&HoleReport) -> usize| report.holes.iter().map(size).sum::<usize>();
         let value = HolefillSummary {
@@ -94,7 +93,7 @@ pub unsafe extern "C" fn holefill_report_summary(
             new_triangles: sum(|h| h.new_triangles.len()) as u64,
             index_seconds: report.index_seconds,
             fill_seconds: report.fill_seconds,
-            ..blank()
+            ..Default::default()
         };
         // SAFETY: the caller's promise.
         unsafe { write_struct(summary, &value, "summary") }
@@ -111,7 +110,7 @@ pub unsafe extern "C" fn holefill_report_hole(
     hole: *mut HolefillHole,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_report(report, error, |report| {
+    guard_with(report, error, |report| {
         let found = find(report, index)?;
         let value = HolefillHole {
             loop_id: found.id as u64,
@@ -130,7 +129,7 @@ pub unsafe extern "C" fn holefill_report_hole(
             self_intersections: found.self_intersections as u64,
             min_angle: found.min_angle.unwrap_or(0.0),
             seconds: found.seconds,
-            ..blank()
+            ..Default::default()
         };
         // SAFETY: the caller's promise.
         unsafe { write_struct(hole, &value, "hole") }
@@ -150,7 +149,7 @@ pub unsafe extern "C" fn holefill_report_reason(
     length: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_report(report, error, |report| {
+    guard_with(report, error, |report| {
         // SAFETY: the caller's promise.
         unsafe { write_text(&find(report, index)?.reason, buffer, capacity, length) }
     })
@@ -171,7 +170,7 @@ pub unsafe extern "C" fn holefill_report_tried(
     length: *mut u64,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_report(report, error, |report| {
+    guard_with(report, error, |report| {
         let tried = nth(&find(report, index)?.tried, attempt.into(), "attempt")?;
         not_null(method.cast_const(), "method")?;
         // SAFETY: the caller's promise.
@@ -193,7 +192,7 @@ pub unsafe extern "C" fn holefill_report_prediction(
     prediction: *mut HolefillPrediction,
     error: *mut HolefillError,
 ) -> HolefillStatus {
-    guard_report(report, error, |report| {
+    guard_with(report, error, |report| {
         let none = || not_found(format!("entry {index} has no prediction"));
         let found = find(report, index)?.prediction.as_ref().ok_or_else(none)?;
         let value = HolefillPrediction {
@@ -204,7 +203,7 @@ pub unsafe extern "C" fn holefill_report_prediction(
             crease_surface_count: found.crease_surfaces.len() as u64,
             is_tip: found.is_tip.into(),
             is_flat: found.is_flat.into(),
-            ..blank()
+            ..Default::default()
         };
         // SAFETY: the caller's promise.
         unsafe { write_struct(prediction, &value, "prediction") }
@@ -214,5 +213,5 @@ pub unsafe extern "C" fn holefill_report_prediction(
 /// Frees a report. The handle 0 is allowed.
 #[unsafe(no_mangle)]
 pub extern "C" fn holefill_report_free(report: HolefillReport) -> HolefillStatus {
-    guard_silent(|| free(REPORT, report.id))
+    guard_free(report)
 }

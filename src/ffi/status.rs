@@ -83,8 +83,7 @@ statuses! {
 /// is static: it is never freed.
 #[unsafe(no_mangle)]
 pub extern "C" fn holefill_status_name(status: HolefillStatus) -> *const c_char {
-    let entry = STATUSES.iter().find(|&&(s, ..)| s == status);
-    entry.map_or(c"UNKNOWN", |e| e.1).as_ptr()
+    texts(status).0.as_ptr()
 }
 
 /// What a status means, in a few words. The text is static: it is never freed.
@@ -95,6 +94,11 @@ pub extern "C" fn holefill_status_message(status: HolefillStatus) -> *const c_ch
 
 /// The words for a status.
 pub(super) fn message(status: HolefillStatus) -> &'static CStr {
+    texts(status).1
+}
+
+/// Name and message of a status.
+fn texts(status: HolefillStatus) -> (&'static CStr, &'static CStr) {
     let entry = STATUSES.iter().find(|&&(s, ..)| s == status);
-    entry.map_or(c"an unknown status", |e| e.2)
+    entry.map_or((c"UNKNOWN", c"an unknown status"), |e| (e.1, e.2))
 }

@@ -11,7 +11,7 @@ use std::mem::{MaybeUninit, align_of};
 ///
 /// # Safety
 /// The type is `repr(C)`, begins with `struct_size: u32` and `version: u32`, and all zero bytes are a value of it.
-pub(super) unsafe trait CStruct: Copy {
+pub(super) unsafe trait CStruct: Copy + Default {
     const VERSION: u32;
 }
 
@@ -23,6 +23,13 @@ macro_rules! versioned {
             unsafe impl CStruct for $name {
                 const VERSION: u32 = $version;
             }
+
+            /// Nothing but its size and version.
+            impl Default for $name {
+                fn default() -> Self {
+                    blank()
+                }
+            }
         )*
     };
 }
@@ -33,6 +40,7 @@ versioned!(
     HolefillLoopInfo = HOLEFILL_LOOP_INFO_VERSION,
     HolefillSelection = HOLEFILL_SELECTION_VERSION,
     HolefillTarget = HOLEFILL_TARGET_VERSION,
+    HolefillProgress = HOLEFILL_PROGRESS_VERSION,
     HolefillFillOptions = HOLEFILL_FILL_OPTIONS_VERSION,
     HolefillPointOptions = HOLEFILL_POINT_OPTIONS_VERSION,
     HolefillPointSummary = HOLEFILL_POINT_SUMMARY_VERSION,
@@ -46,20 +54,6 @@ versioned!(
 const LARGEST_STRUCT: usize = 4096;
 /// Size of the two fields that every such struct begins with.
 const HEAD: usize = 8;
-
-/// Checks the size that a struct of the caller is said to have.
-fn check_size<T: CStruct>(size: u32, what: &str) -> Result<usize, Failure> {
-    let size = size as usize;
-    // Structs of older headers end where their alignment says: another size would cut a field.
-    let is_older = size < size_of::<T>() && size.is_multiple_of(align_of::<T>());
-    if !(HEAD..=LARGEST_STRUCT).contains(&size) || !(is_older || size >= size_of::<T>()) {
-        let known = size_of::<T>();
-        return Err(invalid_struct(format!(
-            "{what} has the struct_size {size}, which no version of it has; this library knows {known}"
-        )));
-    }
-    Ok(size)
-}
 
 /// The size that the caller's struct has, after the checks of its first two fields.
 ///
@@ -79,7 +73,15 @@ pub(super) unsafe fn check_struct<T: CStruct>(
             "{what} has version {version}, this library knows {known}"
         )));
     }
-    check_size::<T>(size, what)
+    let (size, own) = (size as usize, size_of::<T>());
+    // Structs of older headers end where their alignment says: another size would cut a field.
+    let is_older = size < own && size.is_multiple_of(align_of::<T>());
+    if !(HEAD..=LARGEST_STRUCT).contains(&size) || !(is_older || size >= own) {
+        return Err(invalid_struct(format!(
+            "{what} has the struct_size {size}, which no version of it has; this library knows {own}"
+        )));
+    }
+    Ok(size)
 }
 
 /// Copies a struct of the caller; `None` when the pointer is null.
@@ -135,7 +137,7 @@ pub(super) unsafe fn write_struct<T: CStruct>(
 }
 
 /// A struct with nothing but its size and version.
-pub(super) fn blank<T: CStruct>() -> T {
+fn blank<T: CStruct>() -> T {
     let mut value = MaybeUninit::<T>::zeroed();
     let fields: *mut u32 = value.as_mut_ptr().cast();
     // SAFETY: `CStruct` says that zeros are a value and that it begins with two `u32`.
@@ -144,25 +146,4 @@ pub(super) fn blank<T: CStruct>() -> T {
         fields.add(1).write(T::VERSION);
         value.assume_init()
     }
-}
-
-/// Makes a struct of the caller blank.
-///
-/// # Safety
-/// `data` is null or points to `struct_size` bytes.
-pub(super) unsafe fn init_struct<T: CStruct>(
-    data: *mut T,
-    struct_size: u32,
-    what: &str,
-) -> Result<(), Failure> {
-    not_null(data.cast_const(), what)?;
-    let size = check_size::<T>(struct_size, what)?;
-    let fields: *mut u32 = data.cast();
-    // SAFETY: the caller's promise; the size was checked.
-    unsafe {
-        data.cast::<u8>().write_bytes(0, size);
-        fields.write_unaligned(struct_size);
-        fields.add(1).write_unaligned(T::VERSION);
-    }
-    Ok(())
 }

@@ -253,7 +253,9 @@ pub const HOLEFILL_TARGET_SELECTED: HolefillTargetKind = 0;
 pub const HOLEFILL_TARGET_LOOP: HolefillTargetKind = 1;
 /// The loop through the boundary edge `edge`.
 pub const HOLEFILL_TARGET_EDGE: HolefillTargetKind = 2;
-/// The loops that the closed chain of the vertices `ids` consists of: see `holefill_mesh_find_vertices`.
+/// The loops that the closed chain of the vertices `ids` consists of, the last joined to the first. It may start anywhere
+/// and run either way. Where it visits a vertex twice it passes through more than one loop: loops are cut where the
+/// boundary touches itself.
 pub const HOLEFILL_TARGET_VERTICES: HolefillTargetKind = 3;
 /// The loops `ids`.
 pub const HOLEFILL_TARGET_LOOPS: HolefillTargetKind = 4;

@@ -110,7 +110,7 @@ mod tests {
     use super::*;
     use crate::fixtures;
     use crate::math::Vec3;
-    use crate::mesh::connectivity::BOUNDARY;
+    use crate::mesh::halfedge::BOUNDARY;
 
     /// A sphere that is built from its first triangles and gets the others in pieces.
     #[test]

@@ -1,9 +1,9 @@
 //! Filling holes: planning, verification, stitching, report.
 
 mod attributes;
-mod hole;
+mod cut;
 mod index;
-pub(crate) mod pipeline;
+mod patch;
 mod plan;
 mod polyline;
 pub(crate) mod progress;

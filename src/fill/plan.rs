@@ -1,70 +1,31 @@
-//! Finds the patch for one hole without touching the mesh: methods in turn until one gives a patch that
-//! passes every check.
+//! Finds patches without touching the mesh: for each hole methods in turn until one gives a patch that passes every
+//! check, for several holes in parallel.
 
-use super::attributes::{AttributeTask, CarriedAttributes};
-use super::hole::Hole;
+use super::attributes::AttributeTask;
+use super::cut::{MeshPlace, cut_out};
 use super::index::MeshIndex;
+use super::patch::{Outcome, Patch, PatchFailure, in_mesh};
+use super::polyline::Polyline;
+use super::progress::Watch;
 use super::report::Attempt;
 use super::verify::check_patch;
-use crate::boundary::loops::BoundaryLoop;
+use crate::boundary::boundary_loop::BoundaryLoop;
+use crate::boundary::linked::LinkedLoops;
+use crate::boundary::opening::Opening;
 use crate::error::{Error, ErrorKind, Result};
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::Vec3;
 use crate::mesh::trimesh::TriMesh;
-use crate::methods::auto::prediction::Prediction;
 use crate::methods::method::Method;
 use crate::methods::spec::HoleReach;
 use crate::methods::task::Task;
 use crate::options::FillOptions;
 use crate::patch::PatchSurface;
-use crate::quality::self_intersection::{AppendedPatch, SelfIntersections};
+use crate::quality::self_intersection::AppendedPatch;
 use crate::quality::shape::smallest_angle;
-
-/// A patch that may be stitched into the mesh.
-#[derive(Clone)]
-pub(crate) struct Plan {
-    pub(crate) hole: Hole,
-    pub(crate) method: Method,
-    pub(crate) tried: Vec<Attempt>,
-    /// New vertices in the mesh's coordinates.
-    pub(crate) points: Vec<Vec3>,
-    /// Indices below the rim count are rim vertices, the others new ones.
-    triangles: Vec<[u32; 3]>,
-    /// For each halfedge of the triangles the other one of its edge.
-    pub(crate) twins: Vec<u32>,
-    pub(crate) self_intersections: usize,
-    pub(crate) min_angle: f64,
-    pub(crate) attributes: CarriedAttributes,
-    /// How the surface was predicted, if a method did so.
-    pub(crate) prediction: Option<Prediction>,
-}
-
-impl Plan {
-    pub(crate) fn triangle_count(&self) -> usize {
-        self.triangles.len()
-    }
-
-    /// The triangles in the indices of a mesh with `vertex_count` vertices before the new ones.
-    pub(crate) fn triangles(&self, vertex_count: usize) -> Vec<[u32; 3]> {
-        global_triangles(&self.hole, &self.triangles, vertex_count)
-    }
-}
-
-/// Why there is no plan, and what was tried.
-#[derive(Clone)]
-pub(crate) struct PlanFailure {
-    pub(crate) error: Error,
-    pub(crate) tried: Vec<Attempt>,
-}
-
-impl From<Error> for PlanFailure {
-    fn from(error: Error) -> Self {
-        Self {
-            error,
-            tried: Vec::new(),
-        }
-    }
-}
+use rayon::prelude::*;
+use std::time::Instant;
 
 /// The methods to try, best first: the chosen one, then the simpler ones.
 pub(crate) fn chain(options: &FillOptions) -> Vec<Method> {
@@ -75,64 +36,148 @@ pub(crate) fn chain(options: &FillOptions) -> Vec<Method> {
     methods
 }
 
-/// What planning needs besides the hole.
+/// What planning needs besides the mesh.
+#[derive(Clone, Copy)]
 pub(crate) struct Planner<'a> {
-    pub(crate) mesh: &'a TriMesh,
+    /// All loops of the mesh.
+    pub(crate) loops: &'a [BoundaryLoop],
     pub(crate) index: &'a MeshIndex,
+    /// Set when the mesh is a polyline.
+    pub(crate) polyline: Option<&'a Polyline>,
     pub(crate) options: &'a FillOptions,
-    /// Asked from time to time; true stops the work.
-    pub(crate) job: &'a Job<'a>,
+}
+
+/// A hole cut out of the mesh, about to be filled.
+struct Site<'a> {
+    mesh: &'a TriMesh,
+    hole: &'a Hole,
+    place: &'a MeshPlace,
+    task: &'a Task<'a>,
+}
+
+/// A patch that passed the checks.
+struct Checked {
+    method: Method,
+    surface: PatchSurface,
+    twins: Vec<u32>,
+    /// New vertices in the mesh's coordinates.
+    points: Vec<Vec3>,
+    intersections: usize,
 }
 
 impl Planner<'_> {
-    /// Finds a patch for the hole that `outer` bounds together with its `islands`, by the first of `methods`
-    /// whose patch passes every check and intersects nothing. If each one's intersects something, the one
-    /// with the fewest intersecting pairs is taken, unless a method found the rim knotted.
-    pub(crate) fn plan(
+    /// Plans the patches of all openings, in parallel on the threads of `pool`, with the seconds that each took.
+    pub(super) fn plan_all(
         &self,
-        outer: &BoundaryLoop,
-        islands: &[&BoundaryLoop],
-        methods: &[Method],
-    ) -> std::result::Result<Plan, PlanFailure> {
-        let reach = methods
-            .iter()
-            .map(|m| (m.spec().reach)(self.options))
-            .fold(HoleReach::rings(1), HoleReach::union);
-        self.job.ask()?;
-        let hole = Hole::new(self.mesh, outer, islands, reach, self.job)?;
-        self.job.ask()?;
-        self.plan_hole(hole, methods)
+        mesh: &TriMesh,
+        openings: &[Opening],
+        pool: &rayon::ThreadPool,
+        watch: &Watch<'_>,
+    ) -> Vec<(Outcome, f64)> {
+        let methods = chain(self.options);
+        let needs_unlinked = methods.first().is_some_and(|m| m.spec().needs_unlinked_rim);
+        let links =
+            (needs_unlinked && self.polyline.is_none()).then(|| LinkedLoops::new(mesh, self.loops));
+        let plan = |opening: &Opening| {
+            let start = Instant::now();
+            let job = Job::new(watch);
+            let may_start = job.ask().and_then(|()| match &links {
+                Some(links) => check_links(links, opening),
+                None => Ok(()),
+            });
+            let outcome = may_start
+                .map_err(PatchFailure::from)
+                .and_then(|()| self.plan(mesh, opening, &methods, &job))
+                .map_err(|failure| PatchFailure {
+                    error: watch.explain(failure.error),
+                    tried: failure.tried,
+                });
+            watch.advance();
+            (outcome, start.elapsed().as_secs_f64())
+        };
+        // One thread is the caller's own: its memory is warm.
+        if self.options.threads == 1 {
+            openings.iter().map(plan).collect()
+        } else {
+            let plan_all = || openings.par_iter().with_max_len(1).map(plan).collect();
+            pool.install(plan_all)
+        }
     }
 
-    /// As [`plan`](Self::plan), for a hole that was cut out already.
-    pub(crate) fn plan_hole(
+    /// Finds a patch for the opening by the first of `methods` whose patch passes every check and intersects nothing. If
+    /// each one's intersects something, the one with the fewest intersecting pairs is taken, unless a method found the rim
+    /// knotted.
+    pub(crate) fn plan(
         &self,
-        hole: Hole,
+        mesh: &TriMesh,
+        opening: &Opening,
         methods: &[Method],
-    ) -> std::result::Result<Plan, PlanFailure> {
+        job: &Job<'_>,
+    ) -> Outcome {
+        job.ask()?;
+        let (hole, place) = match self.polyline {
+            Some(polyline) => polyline.cut_out(mesh.points())?,
+            None => {
+                let reach = methods.iter().map(|m| (m.spec().reach)(self.options));
+                let reach = reach.fold(HoleReach::rings(1), HoleReach::union);
+                cut_out(mesh, &opening.rims_among(self.loops), reach, job)?
+            }
+        };
+        job.ask()?;
+        let site = Site {
+            mesh,
+            hole: &hole,
+            place: &place,
+            task: &Task::new(&hole, self.options, job),
+        };
         let mut tried = Vec::new();
-        let task = Task::new(&hole.shape, self.options, self.job);
-        let mut best: Option<(MadePatch, usize)> = None;
+        match site.best_of(methods, self.index, &mut tried) {
+            Ok(checked) => match site.finished(checked) {
+                Ok(patch) => Ok(Patch { tried, ..patch }),
+                Err(error) => Err(PatchFailure { error, tried }),
+            },
+            Err(error) => Err(PatchFailure { error, tried }),
+        }
+    }
+}
+
+/// Fails when a rim of the opening is linked with another loop: no disk over it is free of intersections then.
+fn check_links(links: &LinkedLoops<'_>, opening: &Opening) -> Result<()> {
+    let mut rims = opening.rims().iter();
+    match rims.find_map(|&id| Some((id, links.partner(id)?))) {
+        None => Ok(()),
+        Some((id, other)) => Err(Error::new(
+            ErrorKind::Knotted,
+            format!("loop {id} is linked with loop {other}, which pierces every disk over it"),
+        )),
+    }
+}
+
+impl Site<'_> {
+    /// The best patch of the methods. `tried` gets the others, and why their patches were not used.
+    fn best_of(
+        &self,
+        methods: &[Method],
+        index: &MeshIndex,
+        tried: &mut Vec<Attempt>,
+    ) -> Result<Checked> {
+        // With its position among those that were tried.
+        let mut best: Option<(Checked, usize)> = None;
         let mut last_error = None;
         let mut knotted = None;
         for &method in methods {
-            let reason = match self.candidate(&hole, &task, method) {
-                Ok(candidate) => {
-                    let found = candidate.intersections.total();
-                    let is_better = best
-                        .as_ref()
-                        .is_none_or(|(b, _)| found < b.intersections.total());
-                    if is_better {
-                        best = Some((candidate, tried.len()));
+            let reason = match self.checked(method, index) {
+                Ok(checked) => {
+                    let found = checked.intersections;
+                    if best.as_ref().is_none_or(|(b, _)| found < b.intersections) {
+                        best = Some((checked, tried.len()));
                     }
                     if found == 0 {
                         break;
                     }
                     format!("its patch has {found} intersecting pairs of triangles")
                 }
-                Err(error) if error.kind() == ErrorKind::Cancelled => {
-                    return Err(PlanFailure { error, tried });
-                }
+                Err(error) if error.kind() == ErrorKind::Cancelled => return Err(error),
                 Err(error) => {
                     let reason = error.to_string();
                     if error.kind() == ErrorKind::Knotted {
@@ -146,41 +191,36 @@ impl Planner<'_> {
         }
         // Every disk over a knotted rim meets itself: what does so here is no way out.
         if knotted.is_some() {
-            best = best.filter(|(candidate, _)| candidate.intersections.total() == 0);
+            best = best.filter(|(checked, _)| checked.intersections == 0);
         }
-        let Some((candidate, position)) = best else {
-            let error = knotted
+        match best {
+            Some((checked, position)) => {
+                if checked.intersections > 0 {
+                    tried.remove(position);
+                }
+                Ok(checked)
+            }
+            None => Err(knotted
                 .or(last_error)
-                .unwrap_or_else(|| Error::new(ErrorKind::InvalidInput, "no method was allowed"));
-            return Err(PlanFailure { error, tried });
-        };
-        if candidate.intersections.total() > 0 {
-            tried.remove(position);
+                .unwrap_or_else(|| Error::invalid("no method was allowed"))),
         }
-        let prediction = task.known::<Prediction>();
-        drop(task);
-        let mut plan = self.finish(hole, candidate, tried)?;
-        plan.prediction = prediction;
-        Ok(plan)
     }
 
-    fn candidate(&self, hole: &Hole, task: &Task<'_>, method: Method) -> Result<MadePatch> {
-        let spec = method.spec();
-        let surface = (spec.make)(task)?;
-        let twins = check_patch(hole, &surface, spec.farthest, self.job)?;
-        self.job.ask()?;
-        let points: Vec<Vec3> = surface.points[surface.rim_count..]
-            .iter()
-            .map(|p| hole.to_mesh(p).into())
-            .collect();
-        let triangles = global_triangles(hole, &surface.triangles, self.mesh.positions().len());
+    fn checked(&self, method: Method, index: &MeshIndex) -> Result<Checked> {
+        let (spec, job) = (method.spec(), self.task.job);
+        let surface = (spec.make)(self.task)?;
+        let twins = check_patch(self.hole, &surface, spec.farthest, job)?;
+        job.ask()?;
+        let new = surface.points[surface.rim_count..].iter();
+        let points: Vec<Vec3> = new.map(|p| self.place.to_mesh(p)).collect();
+        let vertex_count = self.mesh.positions().len();
         let patch = AppendedPatch {
             points: &points,
-            triangles: &triangles,
+            triangles: &in_mesh(&self.place.rim, &surface.triangles, vertex_count),
             twins: &twins,
         };
-        let intersections = self.index.intersections(self.mesh, patch, self.job)?;
-        Ok(MadePatch {
+        let intersections = index.intersections(self.mesh, patch, job)?.total();
+        Ok(Checked {
             method,
             surface,
             twins,
@@ -189,65 +229,36 @@ impl Planner<'_> {
         })
     }
 
-    fn finish(
-        &self,
-        hole: Hole,
-        candidate: MadePatch,
-        tried: Vec<Attempt>,
-    ) -> std::result::Result<Plan, PlanFailure> {
-        let MadePatch {
-            method,
-            surface,
-            twins,
-            points,
-            intersections,
-        } = candidate;
+    /// The patch with its attributes, and nothing that was tried besides.
+    fn finished(&self, checked: Checked) -> Result<Patch> {
+        let surface = checked.surface;
         let task = AttributeTask {
             mesh: self.mesh,
-            hole: &hole,
+            hole: self.hole,
+            place: self.place,
             surface: &surface,
-            options: self.options,
-            method,
-            job: self.job,
+            options: self.task.options,
+            method: checked.method,
+            job: self.task.job,
         };
-        let attributes = match task.carry() {
-            Ok(attributes) => attributes,
-            Err(error) => return Err(PlanFailure { error, tried }),
-        };
+        let attributes = task.carry()?;
         let corners = |t: &[u32; 3]| t.map(|v| surface.points[v as usize]);
-        let min_angle = surface
+        let angles = surface
             .triangles
             .iter()
-            .map(|t| smallest_angle(&corners(t)))
-            .fold(std::f64::consts::PI, f64::min);
-        Ok(Plan {
-            hole,
-            method,
-            tried,
-            points,
+            .map(|t| smallest_angle(&corners(t)));
+        Ok(Patch {
+            method: checked.method,
+            tried: Vec::new(),
+            rim: self.place.rim.clone(),
+            rim_edges: self.place.rim_edges(&self.hole.polygon),
+            points: checked.points,
+            min_angle: angles.fold(std::f64::consts::PI, f64::min),
             triangles: surface.triangles,
-            twins,
-            self_intersections: intersections.total(),
-            min_angle,
+            twins: checked.twins,
+            self_intersections: checked.intersections,
             attributes,
-            prediction: None,
+            prediction: self.task.known(),
         })
     }
-}
-
-struct MadePatch {
-    method: Method,
-    surface: PatchSurface,
-    twins: Vec<u32>,
-    points: Vec<Vec3>,
-    intersections: SelfIntersections,
-}
-
-fn global_triangles(hole: &Hole, triangles: &[[u32; 3]], vertex_count: usize) -> Vec<[u32; 3]> {
-    let rim_count = hole.rim.len();
-    let global = |v: u32| match (v as usize).checked_sub(rim_count) {
-        Some(new) => (vertex_count + new) as u32,
-        None => hole.rim[v as usize],
-    };
-    triangles.iter().map(|t| t.map(global)).collect()
 }

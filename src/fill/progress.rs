@@ -1,6 +1,6 @@
 //! Progress of a fill, and what stops it: its caller, or the end of its time.
 
-use crate::error::{Error, ErrorKind};
+use crate::error::{Error, ErrorKind, Result};
 use crate::job::Stop;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
@@ -95,9 +95,12 @@ impl<'a> Watch<'a> {
         let _ = self.stop.compare_exchange(GO_ON, reason, relaxed, relaxed);
     }
 
-    /// Whether the caller asked to stop.
-    pub(super) fn is_cancelled(&self) -> bool {
-        self.stop.load(Ordering::Relaxed) == CANCELLED
+    /// Fails when the caller asked to stop.
+    pub(super) fn refuse_cancelled(&self) -> Result<()> {
+        match self.stop.load(Ordering::Relaxed) {
+            CANCELLED => Err(Error::cancelled()),
+            _ => Ok(()),
+        }
     }
 
     /// A job that is stopped says that it was cancelled; when it was the time that ran out, this says so.
@@ -107,7 +110,7 @@ impl<'a> Watch<'a> {
                 if self.stop.load(Ordering::Relaxed) == OUT_OF_TIME =>
             {
                 let message = format!("the time budget of {budget} s ran out");
-                Error::new(ErrorKind::Limit, message)
+                Error::limit(message)
             }
             _ => error,
         }

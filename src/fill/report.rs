@@ -1,6 +1,7 @@
 //! What happened to each hole.
 
-use crate::boundary::classify::LoopClass;
+use crate::boundary::boundary_loop::BoundaryLoop;
+use crate::boundary::boundary_loop::LoopClass;
 use crate::error::ErrorKind;
 use crate::methods::auto::prediction::Prediction;
 use crate::methods::method::Method;
@@ -82,6 +83,49 @@ pub struct HoleReport {
     pub min_angle: Option<f64>,
     /// Time spent on the hole, in seconds.
     pub seconds: f64,
+}
+
+impl HoleReport {
+    /// That of a loop which stays open: because it is `kept`, or because it cannot be filled. Of a loop that is to be filled
+    /// it says nothing yet.
+    pub(super) fn of_open(l: &BoundaryLoop, kept: Option<String>) -> Self {
+        let unfillable = l.class.unfillable_reason().filter(|_| kept.is_none());
+        Self {
+            id: l.id,
+            edge: l.edge(),
+            edges: l.edge_count(),
+            perimeter: l.perimeter,
+            class: l.class,
+            status: if kept.is_some() {
+                HoleStatus::Kept
+            } else {
+                HoleStatus::Failed
+            },
+            reason: kept.unwrap_or_else(|| unfillable.unwrap_or_default().to_owned()),
+            cause: unfillable.map(|_| ErrorKind::Topology),
+            method: None,
+            tried: Vec::new(),
+            prediction: None,
+            new_vertices: 0..0,
+            new_triangles: 0..0,
+            self_intersections: 0,
+            min_angle: None,
+            seconds: 0.0,
+        }
+    }
+
+    /// Takes back what was said of a patch.
+    pub(super) fn clear(&mut self) {
+        self.reason.clear();
+        self.cause = None;
+        self.method = None;
+        self.tried.clear();
+        self.prediction = None;
+        (self.new_vertices, self.new_triangles) = (0..0, 0..0);
+        self.self_intersections = 0;
+        self.min_angle = None;
+        self.seconds = 0.0;
+    }
 }
 
 /// What happened to all holes of a mesh.

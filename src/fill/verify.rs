@@ -1,11 +1,11 @@
 //! Whether a patch may be used: the checks that every filled hole has passed.
 
-use super::hole::Hole;
 use crate::error::{Error, Result};
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::aabb::Aabb;
 use crate::math::cross_normal;
-use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD, origin, target};
+use crate::mesh::halfedge::{BOUNDARY, NON_MANIFOLD, origin, target};
 use crate::mesh::pairing::pair_halfedges;
 use crate::mesh::trimesh::TriMesh;
 use crate::patch::PatchSurface;
@@ -40,7 +40,7 @@ pub(crate) fn check_patch(
     {
         return Err(Error::geometry(format!("new vertex {v} is not finite")));
     }
-    let rim = Aabb::around(&hole.shape.points);
+    let rim = Aabb::around(hole.rim());
     let limit = farthest * (rim.hi - rim.lo).norm();
     let middle = (rim.hi + rim.lo) / 2.0;
     if surface.points.iter().any(|p| (p - middle).norm() > limit) {
@@ -48,10 +48,10 @@ pub(crate) fn check_patch(
             "the patch runs away from the hole".to_owned(),
         ));
     }
-    let m = hole.shape.polygon.len();
+    let m = hole.polygon.len();
     let mut rim_edges: Vec<(u32, u32)> = (0..m)
-        .filter(|&i| hole.outside_faces[i].is_some())
-        .map(|i| (hole.shape.polygon[i], hole.shape.polygon[(i + 1) % m]))
+        .filter(|&i| !hole.is_bridge[i])
+        .map(|i| (hole.polygon[i], hole.polygon[(i + 1) % m]))
         .collect();
     rim_edges.sort_unstable();
     for t in &surface.triangles {
@@ -91,7 +91,7 @@ pub(crate) fn check_patch(
             twin if twin < h => continue,
             twin => {
                 let joins_rim = a.max(b) < surface.rim_count as u32;
-                let is_known = || is_rim((a, b)) || is_rim((b, a)) || hole.shape.is_joined(a, b);
+                let is_known = || is_rim((a, b)) || is_rim((b, a)) || hole.is_joined(a, b);
                 origin(&surface.triangles, twin) == b && !(joins_rim && is_known())
             }
         };
@@ -113,7 +113,7 @@ pub(crate) fn check_patch(
     }
     // One face over the polygon, whose bridges are passed twice.
     let bridges = (m - rim_edges.len()) / 2;
-    let expected = (hole.shape.points.len() + 1) as i64 - (rim_edges.len() + bridges) as i64;
+    let expected = (hole.rim().len() + 1) as i64 - (rim_edges.len() + bridges) as i64;
     let found = (surface.points.len() + surface.triangles.len()) as i64 - edge_count;
     if found != expected {
         return Err(Error::topology(format!(
@@ -123,29 +123,26 @@ pub(crate) fn check_patch(
     Ok(twins)
 }
 
-/// Checks a patch, given by its triangles in the mesh's vertex indices, against the mesh as it is now:
-/// other holes may have been filled since the patch was made.
+/// Checks a patch, given by the edges that it closes and its triangles in the mesh's vertex indices, against the mesh as it
+/// is now: other holes may have been filled since the patch was made.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Topology`] when the patch would repeat an edge or a triangle, or its rim is not open.
 pub(crate) fn check_against_mesh(
     mesh: &TriMesh,
-    hole: &Hole,
+    rim_edges: &[[u32; 2]],
     triangles: &[[u32; 3]],
 ) -> Result<()> {
-    let m = hole.shape.polygon.len();
-    let at = |i: usize| hole.rim[hole.shape.polygon[i % m] as usize];
-    let mut rim_edges = Vec::with_capacity(m);
-    for i in (0..m).filter(|&i| hole.is_in_mesh && hole.outside_faces[i].is_some()) {
-        let (a, b) = (at(i), at(i + 1));
+    for &[a, b] in rim_edges {
         let known = mesh.connectivity().outgoing(b).find(|o| o.target == a);
         if known.is_none_or(|o| mesh.connectivity().twin(o.halfedge) != BOUNDARY) {
             return Err(Error::topology(format!(
                 "the edge between vertices {a} and {b} is not open"
             )));
         }
-        rim_edges.push((a.min(b), a.max(b)));
     }
+    let undirected = rim_edges.iter().map(|&[a, b]| (a.min(b), a.max(b)));
+    let mut rim_edges: Vec<(u32, u32)> = undirected.collect();
     rim_edges.sort_unstable();
     let is_old = |v: u32| (v as usize) < mesh.positions().len();
     for t in triangles {

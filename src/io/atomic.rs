@@ -1,4 +1,4 @@
-//! Files that appear whole or not at all.
+//! Writes files completely or not at all: to a temporary file that is renamed at the end.
 
 use crate::error::{Error, ErrorKind, Result};
 use std::fs::{self, File, Permissions};
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 const BUFFER_BYTES: usize = 1 << 20;
 
-/// Where a file is written.
+/// The destination of a file.
 enum Destination {
     /// A device or pipe, which is written to in place.
     Device(PathBuf),
@@ -15,7 +15,7 @@ enum Destination {
     File {
         target: PathBuf,
         folder: PathBuf,
-        /// Those of the file that is there already.
+        /// The permissions of the existing file, if there is one.
         permissions: Option<Permissions>,
     },
 }
@@ -45,8 +45,8 @@ impl Destination {
     }
 }
 
-/// Checks that [`replace`] could write to `path`, as far as can be told without doing it: it is no folder and not
-/// read-only, and its folder takes new files.
+/// Checks that [`replace`] can write to `path`, as far as this can be known in advance: it is no folder and not
+/// read-only, and new files can be made in its folder.
 ///
 /// # Errors
 /// [`ErrorKind::Io`] as [`replace`].
@@ -57,7 +57,7 @@ pub fn check_destination(path: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Whether two paths name the same file, as far as can be told before it exists.
+/// Whether two paths name the same file, as far as this can be known before it exists.
 #[must_use]
 pub fn is_same_destination(a: &Path, b: &Path) -> bool {
     let place = |path: &Path| {
@@ -69,11 +69,11 @@ pub fn is_same_destination(a: &Path, b: &Path) -> bool {
     place(a) == place(b)
 }
 
-/// Creates or replaces the file at `path` with what `write` writes.
+/// Creates or replaces the file at `path`; `write` writes its contents.
 ///
-/// The bytes go to a temporary file in the same folder, which is renamed once they are on the
-/// disk; on any error it is removed, and what was at `path` stays. A symbolic link is followed, a
-/// replaced file passes its permissions on, and a device or pipe is written to in place.
+/// The bytes go to a temporary file in the same folder, which is renamed when they are on the disk. On an error it is
+/// removed, and the file at `path` stays unchanged. A symbolic link is followed. A new file gets the permissions of the
+/// file that it replaces. A device or pipe is written to in place.
 ///
 /// # Errors
 /// [`ErrorKind::Io`] with the path or, when it is missing, the folder.
@@ -115,7 +115,7 @@ fn failed(path: &Path, reason: &str) -> Error {
     )
 }
 
-/// The file that `path` stands for when it is a link, which may be still to come.
+/// The target of `path` if it is a link. The target need not exist.
 fn resolved(path: &Path) -> PathBuf {
     fs::canonicalize(path)
         .or_else(|_| fs::read_link(path).map(|target| folder_of(path).join(target)))
@@ -132,7 +132,7 @@ fn folder_of(path: &Path) -> PathBuf {
 fn new_temporary(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".holefill-").suffix(".tmp");
-    // As any new file, not private to the user as temporary files are; the umask applies.
+    // Temporary files are private to the user. This one gets the usual permissions of a new file; the umask applies.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder.tempfile_in(folder)

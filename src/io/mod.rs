@@ -1,14 +1,14 @@
 //! Mesh files as plain arrays: PLY, OBJ, OFF and STL; points also from XYZ.
 //!
-//! [`read`] and [`write()`] choose the format by the file's extension. A read keeps every vertex and
-//! triangle in the order of the file, and what a format can say about them is kept as
-//! [`Attributes`]; what is lost on the way is said in notes. Nothing is judged here but the file:
-//! coordinates may be NaN and triangles may be degenerate, while an index always has its vertex.
+//! [`read`] and [`write()`] choose the format by the extension of the file. Reading keeps all vertices and triangles
+//! in the order of the file, and their other data as [`Attributes`]. Notes tell what was lost. The contents are not
+//! checked beyond the format: coordinates may be NaN and triangles may be degenerate, but every index has its vertex.
 //!
-//! The parsers are our own because `ply-rs`, `tobj` and `stl_io` lose vertices, precision or the
-//! place of an error, or are slow.
+//! The parsers are our own, because `ply-rs`, `tobj` and `stl_io` lose vertices, precision or the line of an error,
+//! or are slow. Cost: linear in the size of a file; STL takes O(n log n).
 
 mod atomic;
+mod mesh_data;
 mod obj;
 mod off;
 mod ply;
@@ -18,85 +18,13 @@ mod text;
 mod xyz;
 
 pub use atomic::{check_destination, is_same_destination, replace};
-pub use ply::{PlyDetails, PlyElement, PlyEncoding};
+pub use mesh_data::MeshData;
+pub use ply::details::{PlyDetails, PlyElement, PlyEncoding};
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::mesh::attributes::{AttributeValues, Attributes, ScalarType};
+use crate::mesh::attributes::Attributes;
 use std::path::Path;
 use text::parse_error;
-
-/// The contents of a mesh file.
-#[derive(Clone, Debug)]
-pub struct MeshData {
-    /// One position per vertex. Single precision is widened exactly.
-    pub positions: Vec<[f64; 3]>,
-    /// Three indices of vertices per triangle; polygons are cut into triangles by [`read`].
-    pub triangles: Vec<[u32; 3]>,
-    /// What else the file says per vertex: colors, normals, ...
-    pub vertex_attributes: Attributes,
-    /// What else the file says per triangle.
-    pub face_attributes: Attributes,
-    /// The precision of the positions in the file, [`ScalarType::F32`] or [`ScalarType::F64`]; any
-    /// other type is taken for the latter.
-    pub position_type: ScalarType,
-    /// What only a PLY file says; other formats leave it at its default.
-    pub ply: PlyDetails,
-    /// What was left out or changed on reading, one sentence each.
-    pub notes: Vec<String>,
-}
-
-impl MeshData {
-    /// A mesh in double precision without attributes.
-    #[must_use]
-    pub fn new(positions: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Self {
-        Self {
-            vertex_attributes: Attributes::new(positions.len()),
-            face_attributes: Attributes::new(triangles.len()),
-            positions,
-            triangles,
-            position_type: ScalarType::F64,
-            ply: PlyDetails::default(),
-            notes: Vec::new(),
-        }
-    }
-
-    fn check(&self) -> Result<()> {
-        let counts = [
-            ("vertex", self.vertex_attributes.len(), self.positions.len()),
-            ("face", self.face_attributes.len(), self.triangles.len()),
-        ];
-        for (element, entries, expected) in counts {
-            if entries != expected {
-                return Err(Error::invalid(format!(
-                    "the {element} attributes have {entries} entries instead of {expected}"
-                )));
-            }
-        }
-        let n = self.positions.len();
-        match self
-            .triangles
-            .iter()
-            .position(|t| t.iter().any(|&v| v as usize >= n))
-        {
-            Some(k) => Err(Error::invalid(format!(
-                "triangle {k} has a corner that is not a vertex"
-            ))),
-            None => Ok(()),
-        }
-    }
-
-    /// The red, green and blue (and alpha) columns, if they are numbers.
-    fn vertex_colors(&self) -> Option<Vec<&AttributeValues>> {
-        let numbers = |name| {
-            self.vertex_attributes
-                .get(name)
-                .filter(|values| matches!(values, AttributeValues::Scalars(_)))
-        };
-        let mut channels = vec![numbers("red")?, numbers("green")?, numbers("blue")?];
-        channels.extend(numbers("alpha"));
-        Some(channels)
-    }
-}
 
 /// A file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -139,7 +67,7 @@ impl Format {
     }
 }
 
-/// Checks that the extension of `path` is that of a format which [`read`] and [`write()`] know.
+/// Checks that [`read`] and [`write()`] know the extension of `path`.
 ///
 /// # Errors
 /// [`ErrorKind::InvalidInput`] with the known extensions.
@@ -163,18 +91,18 @@ fn is_xyz(path: &Path) -> bool {
 /// format, [`ErrorKind::Limit`] for more vertices than `u32` can number.
 ///
 /// # Complexity
-/// Linear in the size of the file, which is held in memory; STL is O(n log n) in its triangles.
-/// A count in the file is checked against the file's size before memory is set aside for it.
+/// Linear in the size of the file, which is held in memory; for STL, O(n log n) in the number of triangles. Counts in
+/// the file are checked against its size before memory is allocated.
 pub fn read(path: impl AsRef<Path>) -> Result<MeshData> {
     let path = path.as_ref();
     let format = Format::of(path)?;
     read_as(path, |bytes| format.parse(bytes))
 }
 
-/// Reads the points of the file at `path`: the vertices of a mesh file, with their attributes, or a text file
-/// of points, `.xyz` or `.txt`, with 3, 6 or 9 numbers a line: position, normal, color. Normals become the
-/// attributes `nx`, `ny`, `nz`, colors `red`, `green`, `blue`. The result has no triangles; a note says how many
-/// were left out.
+/// Reads the points of the file at `path`. A mesh file gives its vertices with their attributes. A text file of
+/// points (`.xyz` or `.txt`) has 3, 6 or 9 numbers on a line: position, normal, color. Normals become the attributes
+/// `nx`, `ny`, `nz`; colors become `red`, `green`, `blue`. The result has no triangles; a note tells how many were
+/// left out.
 ///
 /// # Errors
 /// As [`read`].
@@ -219,17 +147,17 @@ fn read_as(path: &Path, parse: impl FnOnce(&[u8]) -> Result<MeshData>) -> Result
     })
 }
 
-/// Writes `mesh` to `path`, whole or not at all; an existing file is replaced.
+/// Writes `mesh` to `path`, completely or not at all. An existing file is replaced.
 ///
-/// Returns what the format could not hold, one sentence each. PLY holds everything; OBJ and OFF
-/// hold positions, triangles and the vertex colors `red`, `green`, `blue` (OFF also `alpha`); STL
-/// holds positions in single precision and triangles. Reading a file that was written in its own
-/// format gives the same bits again, STL's order of vertices excepted.
+/// Returns what the format could not store, one sentence for each. PLY stores everything. OBJ and OFF store
+/// positions, triangles and the vertex colors `red`, `green`, `blue` (OFF also `alpha`). STL stores positions in
+/// single precision and triangles. If a file is read and written in the same format, reading the result gives the
+/// same bits, except for the order of vertices of STL.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidInput`] for an unknown extension, attributes whose lengths or names do not
-/// fit, a triangle without its vertices, a finite coordinate beyond single precision in a format
-/// that stores it so; [`ErrorKind::Io`] when the file cannot be written.
+/// [`ErrorKind::InvalidInput`] for an unknown extension, attributes of a wrong length or with names that the format
+/// does not allow, an index without a vertex, or a finite coordinate beyond single precision in a format that has
+/// only that; [`ErrorKind::Io`] when the file cannot be written.
 pub fn write(path: impl AsRef<Path>, mesh: &MeshData) -> Result<Vec<String>> {
     let path = path.as_ref();
     let format = Format::of(path)?;
@@ -258,7 +186,7 @@ pub fn write(path: impl AsRef<Path>, mesh: &MeshData) -> Result<Vec<String>> {
     }
 }
 
-/// Says which attributes a format cannot hold that holds vertex colors at most.
+/// Notes on the attributes that are lost in a format without attributes but the vertex colors `kept_colors`.
 fn lost_attributes(mesh: &MeshData, kept_colors: &[&str]) -> Vec<String> {
     let kept = if mesh.vertex_colors().is_some() {
         kept_colors
@@ -285,28 +213,6 @@ fn lost_attributes(mesh: &MeshData, kept_colors: &[&str]) -> Vec<String> {
     .filter(|(_, names)| !names.is_empty())
     .map(|(what, names)| format!("{what} not written: {}", names.join(", ")))
     .collect()
-}
-
-/// Refuses positions that are finite as they are but not in single precision.
-fn check_single_precision(mesh: &MeshData) -> Result<()> {
-    let overflows = |&x: &f64| x.is_finite() && !(x as f32).is_finite();
-    match mesh.positions.iter().position(|p| p.iter().any(overflows)) {
-        Some(k) => Err(Error::invalid(format!(
-            "vertex {k} lies beyond the range of single precision"
-        ))),
-        None => Ok(()),
-    }
-}
-
-/// The number of vertices, if `u32` can number them.
-fn check_vertex_count(count: usize) -> Result<()> {
-    if count > u32::MAX as usize {
-        return Err(Error::new(
-            ErrorKind::Limit,
-            format!("{count} vertices are too many"),
-        ));
-    }
-    Ok(())
 }
 
 #[cfg(test)]

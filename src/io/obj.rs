@@ -1,17 +1,18 @@
-//! Wavefront OBJ: vertices with optional colors, and faces.
+//! Reads and writes Wavefront OBJ: vertices with optional colors, and faces. Other statements are left out, with a
+//! note.
 
+use super::mesh_data::{MeshData, check_vertex_count};
 use super::polygons::Polygons;
 use super::text::{Lines, parse_error, parse_number, quoted, tokens};
-use super::{MeshData, check_vertex_count};
 use crate::error::Result;
 use crate::mesh::attributes::{AttributeValues, Attributes, ScalarType, ScalarValues};
 use std::borrow::Cow;
 use std::io::{self, Write};
 
-/// The color of a vertex without one in a file that colors others.
+/// The color of a vertex without a color, in a file with colors.
 const NO_COLOR: [f32; 3] = [1.0; 3];
 
-/// The statements that are left out, apart from which only `v` and `f` are known.
+/// The known statements that are left out. All others but `v` and `f` are errors.
 const LEFT_OUT: [&str; 43] = [
     "vt",
     "vn",
@@ -61,13 +62,14 @@ const LEFT_OUT: [&str; 43] = [
 #[derive(Default)]
 struct Reader {
     positions: Vec<[f64; 3]>,
-    /// Empty until the first vertex with a color, then one per vertex.
+    /// Empty before the first vertex with a color; after it, one color for each vertex.
     colors: Vec<[f32; 3]>,
     uncolored: usize,
     /// Vertices with a fourth coordinate.
     weights: usize,
     polygons: Polygons,
-    /// The largest index of a vertex so far, from 0, and its line: faces may precede vertices.
+    /// The largest vertex index in faces so far, from 0, and its line. It is checked at the end, because faces may come
+    /// before vertices.
     largest: Option<(usize, usize)>,
     /// How often each statement of `LEFT_OUT` occurred.
     left_out: Vec<usize>,
@@ -98,7 +100,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<MeshData> {
     reader.finish()
 }
 
-/// The next line without its comment; a `\` at its end joins the line after it.
+/// The next line, without its comment. A line that ends with `\` is joined with the next one.
 fn next_statement<'a>(lines: &mut Lines<'a>) -> Option<Cow<'a, [u8]>> {
     let mut statement = Cow::Borrowed(without_comment(lines.next_line()?));
     while statement.last() == Some(&b'\\') {
@@ -224,8 +226,8 @@ impl Reader {
     }
 }
 
-/// The vertex, from 0, of a corner `v`, `v/vt`, `v//vn` or `v/vt/vn`, where a negative `v` counts
-/// back from the last of the `count` vertices so far.
+/// The vertex index, from 0, of a corner `v`, `v/vt`, `v//vn` or `v/vt/vn`. A negative `v` counts back from the last of
+/// the `count` vertices so far.
 fn corner_index(word: &[u8], count: usize) -> Option<u32> {
     let mut parts = word.split(|&b| b == b'/');
     let index: i64 = parts.next().and_then(parse_number)?;
@@ -245,7 +247,7 @@ fn corner_index(word: &[u8], count: usize) -> Option<u32> {
     u32::try_from(from_zero).ok()
 }
 
-/// Positions are written in double precision, which holds single precision exactly.
+/// Writes a mesh. Positions have double precision, which represents single precision exactly.
 pub(super) fn write(mesh: &MeshData, out: &mut impl Write) -> io::Result<()> {
     let colors = mesh.vertex_colors();
     for (k, [x, y, z]) in mesh.positions.iter().enumerate() {
@@ -262,7 +264,7 @@ pub(super) fn write(mesh: &MeshData, out: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Entry `k` of a color channel on the scale from 0 to 1, on which floating point already is.
+/// Entry `k` of a color channel, scaled from 0 to 1. Floating-point channels already have this scale.
 pub(super) fn unit_channel(channel: &AttributeValues, k: usize) -> f32 {
     let value = channel.number(k).unwrap_or(f64::from(NO_COLOR[0]));
     let full = match channel.scalar_type() {

@@ -1,9 +1,9 @@
-//! OFF, the Geomview object file format, in text: `OFF`, `COFF`, `NOFF` and `CNOFF`.
+//! Reads and writes OFF, the Geomview object file format, as text: `OFF`, `COFF`, `NOFF` and `CNOFF`.
 
+use super::mesh_data::{MeshData, check_vertex_count};
 use super::obj::unit_channel;
 use super::polygons::Polygons;
 use super::text::{Lines, parse_number, quoted, tokens};
-use super::{MeshData, check_vertex_count};
 use crate::error::Result;
 use crate::mesh::attributes::{AttributeValues, Attributes, ScalarType, ScalarValues};
 use std::io::{self, Write};
@@ -40,7 +40,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<MeshData> {
     })
 }
 
-/// The keyword and the counts, which may follow it on its line, even without a space.
+/// Reads the keyword and the counts. The counts may be on the line of the keyword, even without a space between.
 fn read_header(lines: &mut Lines) -> Result<OffHeader> {
     let line = lines
         .next_filled(COMMENT)
@@ -71,11 +71,11 @@ fn read_header(lines: &mut Lines) -> Result<OffHeader> {
     let mut words = tokens(counts);
     let vertices = lines.number_from(&mut words, "the number of vertices")?;
     let faces = lines.number_from(&mut words, "the number of faces")?;
-    // The number of edges is often wrong or missing, and not needed.
+    // The number of edges is not needed, and is often wrong or missing.
     if words.clone().count() > 1 || !words.all(|word| parse_number::<i64>(word).is_some()) {
         return Err(lines.error("the counts are those of vertices, faces and edges"));
     }
-    // "0 0 0" and "0", with line breaks but for the last.
+    // The shortest vertex is "0 0 0" and the shortest face is "0", each with a line break except the last.
     let available = lines.rest().len() as u128 + 1;
     if vertices as u128 * 6 + faces as u128 * 2 > available {
         return Err(lines.error(format!(
@@ -136,7 +136,7 @@ fn read_vertices(lines: &mut Lines, header: &OffHeader) -> Result<MeshData> {
     Ok(mesh)
 }
 
-/// The faces, and how many of them have a color.
+/// Reads the faces. Also returns the number of faces with a color.
 fn read_faces(lines: &mut Lines, count: usize, vertex_count: usize) -> Result<(Polygons, usize)> {
     let mut polygons = Polygons::with_capacity(count);
     let mut colored = 0;
@@ -159,7 +159,7 @@ fn read_faces(lines: &mut Lines, count: usize, vertex_count: usize) -> Result<(P
             corners.push(index);
         }
         polygons.push(&corners);
-        // One number is an index into a color map.
+        // A single number is an index into a color map.
         let color_count = words.clone().count();
         if color_count > COLOR.len() || !words.all(|word| parse_number::<f64>(word).is_some()) {
             return Err(lines.error("after the corners of a face there may be a color only"));
@@ -169,8 +169,8 @@ fn read_faces(lines: &mut Lines, count: usize, vertex_count: usize) -> Result<(P
     Ok((polygons, colored))
 }
 
-/// Positions are written in double precision, which holds single precision exactly. Colors in
-/// bytes stay so; others are written as fractions, with a decimal point even for a whole number.
+/// Writes a mesh. Positions have double precision, which represents single precision exactly. Colors in bytes are
+/// written as bytes. Others are written as fractions, always with a decimal point.
 pub(super) fn write(mesh: &MeshData, out: &mut impl Write) -> io::Result<()> {
     let colors = mesh.vertex_colors().unwrap_or_default();
     let are_bytes = colors

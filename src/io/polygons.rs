@@ -1,4 +1,4 @@
-//! Polygons cut into triangles, with the account of what was cut.
+//! Cuts polygons into triangles, and records which triangles come from which polygon.
 
 use super::text::parse_error;
 use crate::error::Result;
@@ -8,13 +8,13 @@ use crate::mesh::attributes::Attributes;
 #[derive(Debug, Default)]
 pub(super) struct Polygons {
     pub(super) triangles: Vec<[u32; 3]>,
-    /// How many faces were pushed.
+    /// Number of faces so far.
     faces: usize,
-    /// The face that each triangle is from; `None` while every face was a triangle.
+    /// The face of each triangle; `None` while all faces are triangles.
     sources: Option<Vec<usize>>,
-    /// Faces with more than three corners.
+    /// Number of faces with more than three corners.
     cut: usize,
-    /// Faces with fewer than three corners, which are left out.
+    /// Number of faces with fewer than three corners, which are left out.
     too_small: usize,
 }
 
@@ -55,10 +55,10 @@ impl Polygons {
         }
     }
 
-    /// Turns attributes of the faces into attributes of the triangles.
+    /// Turns attributes of the faces into attributes of the triangles. Values of a face are repeated for its triangles.
     ///
-    /// A file of n bytes can describe one polygon with n corners and n values; `budget` is how many
-    /// values may be repeated before that is taken for an attack.
+    /// `budget` is an upper bound on the number of values. Without it, a file of n bytes with one polygon of n
+    /// corners and n values could need memory for n² values.
     pub(super) fn spread(&self, attributes: &mut Attributes, budget: usize) -> Result<()> {
         let Some(sources) = &self.sources else {
             return Ok(());

@@ -1,31 +1,31 @@
-//! STL, triangles without connectivity, in binary or text; written in binary.
+//! Reads and writes STL, triangles without connectivity. Text and binary files are read; binary files are written.
 //!
-//! Corners with equal coordinates are made one vertex on reading (-0.0 equals 0.0), numbered by
-//! their first appearance; facet normals and names are ignored. A binary file holds single
-//! precision, so writing rounds; a text file is read in double precision, as it may have the
-//! digits.
+//! When a file is read, corners with equal coordinates become one vertex (-0.0 equals 0.0). Vertices are numbered in
+//! the order of their first corners. Normals and names are ignored. A binary file has single precision, so writing
+//! rounds positions. A text file is read in double precision.
 //!
-//! Complexity: O(n log n) in the number of triangles, by sorting their corners.
+//! Complexity: O(n log n) in the number of triangles, for sorting their corners.
 
+use super::mesh_data::{MeshData, check_single_precision, check_vertex_count};
 use super::text::{Lines, parse_error, quoted, tokens};
-use super::{MeshData, check_single_precision, check_vertex_count};
 use crate::error::{Error, Result};
 use crate::mesh::attributes::ScalarType;
 use rayon::slice::ParallelSliceMut;
 use std::io::{self, Write};
 
 const HEADER_BYTES: usize = 80;
-/// The header and the count of triangles.
+/// Number of bytes of the header and the count of triangles.
 const PREFIX_BYTES: usize = HEADER_BYTES + 4;
 const FACET_BYTES: usize = 50;
 const NORMAL_BYTES: usize = 12;
 const CORNER_BYTES: usize = 12;
 
-/// The header of a written file. It must not begin with "solid", the first word of a text file.
+/// The header of written files. It must not begin with "solid", the first word of a text file.
 const HEADER: &[u8; HEADER_BYTES] =
     b"binary STL written by holefill                                                  ";
 
-/// Binary if the size is exactly as the count of triangles says, else text if it begins so.
+/// Reads a file. It is binary if its size is exactly that for its count of triangles; otherwise it is text if it begins
+/// like text.
 pub(super) fn parse(bytes: &[u8]) -> Result<MeshData> {
     let size = bytes.len() as u64;
     match binary_size(bytes) {
@@ -51,13 +51,13 @@ fn facet_count(bytes: &[u8]) -> Option<u32> {
         .map(u32::from_le_bytes)
 }
 
-/// The size that a binary file has according to its count of triangles.
+/// The size of a binary file with the count of triangles in `bytes`.
 fn binary_size(bytes: &[u8]) -> Option<u64> {
     Some(PREFIX_BYTES as u64 + u64::from(facet_count(bytes)?) * FACET_BYTES as u64)
 }
 
-/// Whether the first two lines are those of a text file. A binary header may say "solid" too, but
-/// it and the count after it have a zero byte, unless there are 2^24 triangles.
+/// Whether the first two lines are those of a text file. A binary header may begin with "solid", too, but it or the
+/// count after it has a zero byte, unless there are 2^24 triangles or more.
 fn looks_like_text(bytes: &[u8]) -> bool {
     if bytes.iter().take(PREFIX_BYTES).any(|&b| b == 0) {
         return false;
@@ -70,7 +70,7 @@ fn looks_like_text(bytes: &[u8]) -> bool {
     is_solid && next_word().is_none_or(is_text)
 }
 
-/// Reads a binary file that has as many triangles as it promises, or more.
+/// Reads a binary file, which must have at least the triangles of its count.
 fn parse_binary(bytes: &[u8]) -> Result<MeshData> {
     let (facets, _) = bytes[PREFIX_BYTES..].as_chunks::<FACET_BYTES>();
     let facets = &facets[..facet_count(bytes).unwrap_or_default() as usize];
@@ -157,7 +157,7 @@ fn read_corner(lines: &mut Lines) -> Result<[f64; 3]> {
     }
 }
 
-/// Passes over a line that must consist of the words of `wanted`.
+/// Reads a line that must consist of the words of `wanted`.
 fn expect(lines: &mut Lines, wanted: &str) -> Result<()> {
     let missing = || lines.clone().end_error(format!("{wanted} is missing"));
     let line = lines.clone().next_filled(None).ok_or_else(missing)?;
@@ -179,21 +179,21 @@ fn unexpected(lines: &Lines, line: &[u8], wanted: &str) -> Error {
     ))
 }
 
-/// Corners of triangles, those with equal keys joined to one vertex.
+/// Corners of triangles, joined to vertices.
 struct Welded {
     triangles: Vec<[u32; 3]>,
-    /// The first corner of each vertex, in rising order.
+    /// The first corner of each vertex, in ascending order.
     first_corners: Vec<u32>,
 }
 
-/// Joins the corners with equal keys.
+/// Joins corners with equal keys to one vertex.
 fn weld<K: Ord + Copy + Send>(count: usize, key: impl Fn(usize) -> K) -> Result<Welded> {
     check_vertex_count(count)?;
     let mut sorted: Vec<(K, u32)> = (0..count)
         .map(|corner| (key(corner), corner as u32))
         .collect();
     sorted.par_sort_unstable();
-    // First the first corner with the same key, then the number of its vertex.
+    // For each corner: at first the first corner with the same key, later the number of its vertex.
     let mut vertices = vec![0; count];
     for equal in sorted.chunk_by(|a, b| a.0 == b.0) {
         for &(_, corner) in equal {
@@ -247,7 +247,7 @@ pub(super) fn check(mesh: &MeshData) -> Result<()> {
     }
 }
 
-/// Says how many vertices single precision does not hold exactly.
+/// A note on the number of vertices that single precision does not represent exactly.
 pub(super) fn rounding_note(mesh: &MeshData) -> Option<String> {
     let is_rounded = |p: &&[f64; 3]| p.iter().any(|&x| f64::from(x as f32) != x && !x.is_nan());
     let count = mesh.positions.iter().filter(is_rounded).count();
@@ -256,7 +256,7 @@ pub(super) fn rounding_note(mesh: &MeshData) -> Option<String> {
     })
 }
 
-/// Writes `mesh`, which has passed [`check`]; the normal of a triangle without area is zero.
+/// Writes `mesh`, which has passed [`check`]. The normal of a triangle without area is zero.
 pub(super) fn write(mesh: &MeshData, out: &mut impl Write) -> io::Result<()> {
     out.write_all(HEADER)?;
     out.write_all(&(mesh.triangles.len() as u32).to_le_bytes())?;

@@ -1,5 +1,6 @@
 use super::*;
 use crate::mesh::attributes::ScalarValues;
+use crate::mesh::attributes::{AttributeValues, ScalarType};
 use proptest::prelude::*;
 use std::fs;
 

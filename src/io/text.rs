@@ -1,4 +1,4 @@
-//! Lines and tokens of text files, with the line numbers that errors need.
+//! Splits text files into lines and tokens, and makes error messages with line numbers.
 
 use crate::error::{Error, ErrorKind, Result};
 use std::str::FromStr;
@@ -48,7 +48,7 @@ impl<'a> Lines<'a> {
         Some(line.strip_suffix(b"\r").unwrap_or(line))
     }
 
-    /// The next line with anything but white space and, if given, a comment after `comment_mark`.
+    /// The next line that is not blank. If `comment_mark` is given, comments are removed first.
     pub(super) fn next_filled(&mut self, comment_mark: Option<u8>) -> Option<&'a [u8]> {
         loop {
             let line = self.next_line()?;
@@ -72,7 +72,7 @@ impl<'a> Lines<'a> {
         &self.bytes[self.position..]
     }
 
-    /// Passes over `count` bytes that are not lines.
+    /// Skips `count` bytes that are not lines.
     pub(super) fn skip(&mut self, count: usize) {
         self.position = self.bytes.len().min(self.position + count);
     }
@@ -82,7 +82,7 @@ impl<'a> Lines<'a> {
         self.number
     }
 
-    /// A parse error at the line last returned.
+    /// A parse error in the line that was returned last.
     pub(super) fn error(&self, message: impl AsRef<str>) -> Error {
         line_error(self.number, message)
     }
@@ -96,7 +96,7 @@ impl<'a> Lines<'a> {
         ))
     }
 
-    /// The next of `tokens`, as a number.
+    /// Reads the next of `tokens` as a number.
     pub(super) fn number_from<'t, T: FromStr>(
         &self,
         tokens: &mut impl Iterator<Item = &'t [u8]>,
@@ -109,7 +109,7 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// The next three of `tokens`, as a position.
+    /// Reads the next three of `tokens` as a position.
     pub(super) fn position_from<'t>(
         &self,
         tokens: &mut impl Iterator<Item = &'t [u8]>,
@@ -140,7 +140,7 @@ pub(super) fn parse_number<T: FromStr>(token: &[u8]) -> Option<T> {
     std::str::from_utf8(token).ok()?.parse().ok()
 }
 
-/// A token as an error shows it: printable and short.
+/// A token for an error message: printable and short.
 pub(super) fn quoted(token: &[u8]) -> String {
     const LONGEST: usize = 40;
     let start = &token[..token.len().min(LONGEST)];

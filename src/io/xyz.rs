@@ -1,21 +1,21 @@
-//! XYZ: points as text, one a line, without a header.
+//! Reads XYZ: points as text, one on a line, without a header.
 //!
-//! Three numbers are a position. Six are a position and a normal, or a color if all of the last three are whole
-//! numbers from 0 to 255 and one is above 1. Nine are position, normal and color, or position, color and
-//! normal, told apart likewise. Numbers are separated by white space, commas or semicolons; blank lines and
-//! what follows a `#` are left out.
+//! Three numbers are a position. Six numbers are a position and a normal, or a position and a color. Nine numbers are
+//! position, normal and color, or position, color and normal. Three columns are colors if all their numbers are
+//! integers from 0 to 255 and one of them is above 1. Numbers are separated by white space, commas or semicolons.
+//! Blank lines and text after a `#` are ignored.
 
+use super::mesh_data::{MeshData, check_vertex_count};
 use super::text::{Lines, parse_error, parse_number, quoted};
-use super::{MeshData, check_vertex_count};
 use crate::error::Result;
 use crate::mesh::attributes::{AttributeValues, ScalarType, ScalarValues};
 
 const COMMENT: Option<u8> = Some(b'#');
 const NORMAL: [&str; 3] = ["nx", "ny", "nz"];
 const COLOR: [&str; 3] = ["red", "green", "blue"];
-/// The numbers on a line.
+/// The allowed numbers of columns.
 const COLUMN_COUNTS: [usize; 3] = [3, 6, 9];
-/// The longest line.
+/// Upper bound on the columns.
 const MOST_COLUMNS: usize = 9;
 
 pub(super) fn parse(bytes: &[u8]) -> Result<MeshData> {
@@ -77,7 +77,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<MeshData> {
     Ok(mesh)
 }
 
-/// Whether three columns are colors in bytes, rather than normals that happen to be whole numbers.
+/// Whether three columns are colors in bytes. Otherwise they are normals.
 fn are_colors(columns: &[Vec<f64>]) -> bool {
     let values = || columns.iter().flatten();
     let is_byte = |&&value: &&f64| (0.0..=255.0).contains(&value) && value.fract() == 0.0;

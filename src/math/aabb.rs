@@ -51,7 +51,7 @@ impl Aabb {
 
     /// Whether the boxes share a point.
     pub(crate) fn overlaps(&self, other: &Self) -> bool {
-        // Without short cuts: six comparisons are cheaper than one mispredicted branch.
+        // No short-circuits: six comparisons are cheaper than one mispredicted branch.
         let mut overlap = true;
         for k in 0..3 {
             overlap &= self.lo[k] <= other.hi[k];

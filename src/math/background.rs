@@ -1,4 +1,4 @@
-//! Work that cannot be cancelled, made so that its caller need not wait for its end.
+//! Runs work that cannot be cancelled on a thread of its own, so that its caller can be cancelled.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::job::Job;
@@ -8,16 +8,16 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::Duration;
 
-/// Time between two questions whether to go on.
+/// Time between two checks whether the job is cancelled.
 const PERIOD: Duration = Duration::from_millis(5);
 
-/// Runs `work` on a thread of its own and waits for its result, unless `job` is stopped.
+/// Runs `work` on a thread of its own and waits for its result, unless `job` is cancelled.
 ///
-/// Then it waits no longer, and stops the job of `work`. The thread lives on until `work`, which owns all that it needs,
-/// asks its job whether to stop, or comes to its end; then its memory is free again.
+/// If `job` is cancelled, the function returns and cancels the job of `work`. The thread lives on until `work` checks
+/// its job or ends; then its memory is freed. `work` owns all its data.
 ///
 /// # Errors
-/// [`ErrorKind::Cancelled`] when `job` is stopped, [`ErrorKind::Limit`] when no thread can be started.
+/// [`ErrorKind::Cancelled`] when `job` is cancelled, [`ErrorKind::Limit`] when no thread can be started.
 pub(crate) fn run_in_background<T: Send + 'static>(
     job: &Job<'_>,
     work: impl FnOnce(&Job<'_>) -> T + Send + 'static,
@@ -27,13 +27,13 @@ pub(crate) fn run_in_background<T: Send + 'static>(
     let is_given_up_there = Arc::clone(&is_given_up);
     let run = move || {
         let result = work(&Job::new(&*is_given_up_there));
-        // Nobody listens when the work was given up.
+        // After a cancellation there is no receiver.
         let _ = sender.send(result);
     };
     let started = thread::Builder::new()
         .name("holefill".to_owned())
         .spawn(run);
-    started.map_err(|e| Error::new(ErrorKind::Limit, format!("cannot start a thread: {e}")))?;
+    started.map_err(|e| Error::limit(format!("cannot start a thread: {e}")))?;
     loop {
         match receiver.recv_timeout(PERIOD) {
             Ok(result) => return Ok(result),

@@ -1,9 +1,9 @@
 //! A static tree of boxes, for searches by box and by distance.
 //!
-//! Boxes are sorted by the Morton code of their centre and grouped by eight, level by level, into an
-//! implicit tree: no pointers, 32 bytes a box. They are kept in single precision relative to the box of
-//! all and rounded outwards, so that a query never misses a box; it may return one that is apart by a
-//! single-precision rounding.
+//! Boxes are sorted by the Morton codes of their centers and grouped by eight, level by level, into an implicit tree
+//! without pointers, with 32 bytes for each box. They are stored in single precision, relative to the box of all, and
+//! rounded outward. So a query never misses a box, but it may return a box whose distance is a rounding error of single
+//! precision.
 //!
 //! Complexity: build O(n log n) in parallel; box query O(log n + hits) for boxes of the faces of a
 //! surface of the usual kind, O(n) at worst. The result does not depend on the thread count.
@@ -14,11 +14,12 @@ use crate::error::Result;
 use crate::job::Job;
 use rayon::prelude::*;
 
-/// Children per node: a node's boxes fill three cache lines and the tree is eight levels for 4 M.
+/// Number of children of a node. The boxes of a node fill three cache lines, and a tree of 4 million boxes has eight
+/// levels.
 const FANOUT: usize = 8;
-/// Boxes below which work is not worth sending to another thread.
+/// Number of boxes in one task of a thread. Smaller tasks are not worth it.
 const GRAIN: usize = 4096;
-/// Boxes are sorted within at most `8 ^ 5` cells of space.
+/// Upper bound on the level of cells for sorting: boxes are first sorted into at most `8 ^ 5` cells of space.
 const MOST_CELL_LEVELS: u32 = 5;
 
 /// A box in the tree's own units.
@@ -29,12 +30,12 @@ struct PackedBox {
 }
 
 impl PackedBox {
-    fn centre(&self) -> [f32; 3] {
+    fn center(&self) -> [f32; 3] {
         std::array::from_fn(|k| 0.5 * self.lo[k] + 0.5 * self.hi[k])
     }
 }
 
-/// Siblings in the tree, coordinate by coordinate so that all are compared at once.
+/// Siblings in the tree, stored by coordinates so that all are compared at once.
 #[derive(Clone, Copy, Debug)]
 struct Siblings {
     lo: [[f32; FANOUT]; 3],
@@ -42,7 +43,7 @@ struct Siblings {
 }
 
 impl Siblings {
-    /// At most [`FANOUT`] boxes; places left over hold empty boxes.
+    /// Stores at most [`FANOUT`] boxes. Unused places have empty boxes.
     fn of(boxes: impl Iterator<Item = PackedBox>) -> Self {
         let mut siblings = Self {
             lo: [[f32::INFINITY; FANOUT]; 3],
@@ -69,7 +70,7 @@ impl Siblings {
     /// Which siblings overlap `query`.
     fn overlapping(&self, query: &PackedBox) -> Marks {
         let Self { lo, hi } = self;
-        // Whole words and no short cuts, so that the comparisons are made side by side.
+        // Whole words without short-circuits, so that the compiler vectorizes the comparisons.
         let mut apart = [0_u32; FANOUT];
         for (place, apart) in apart.iter_mut().enumerate() {
             let is_apart = (lo[0][place] > query.hi[0])
@@ -95,7 +96,7 @@ impl Siblings {
     }
 }
 
-/// A set of places among siblings: one bit each.
+/// A set of siblings, with one bit for each.
 #[derive(Clone, Copy, Debug)]
 struct Marks(u32);
 
@@ -104,7 +105,7 @@ impl Iterator for Marks {
 
     fn next(&mut self) -> Option<usize> {
         let lowest = self.0.trailing_zeros();
-        // Without the lowest one.
+        // Clears the lowest bit.
         self.0 &= self.0.wrapping_sub(1);
         (lowest < u32::BITS).then_some(lowest as usize)
     }
@@ -129,7 +130,7 @@ impl GridFrame {
         }
     }
 
-    /// Monotone in each coordinate, so order between mapped coordinates is never reversed.
+    /// The map is monotone in each coordinate, so it never reverses an order.
     fn map(&self, p: &Vec3) -> Vec3 {
         (p - self.origin) * self.scale
     }
@@ -145,11 +146,11 @@ impl GridFrame {
 
 /// A single-precision number below `x` by at most three units in the last place.
 ///
-/// Never by a branch on the direction of rounding, which no processor can predict.
+/// There is no branch on the direction of rounding, because it cannot be predicted.
 fn round_down(x: f64) -> f32 {
     let nearest = x as f32;
     let margin = nearest.abs() * f32::EPSILON + f32::MIN_POSITIVE;
-    // Infinity stays what it is.
+    // Infinity stays unchanged.
     nearest - margin.min(f32::MAX)
 }
 
@@ -167,17 +168,17 @@ pub(crate) struct BoxTree {
 }
 
 impl BoxTree {
-    /// Makes the tree of `count` boxes, at most `u32::MAX`; the id of a box is its argument.
+    /// Builds the tree of `count` boxes, at most `u32::MAX`. `box_of` gets the id of a box.
     ///
     /// # Errors
-    /// `Cancelled` when the job is stopped.
+    /// `Cancelled` when the job is cancelled.
     pub(crate) fn build(
         count: usize,
         box_of: impl Fn(usize) -> Aabb + Sync,
         job: &Job<'_>,
     ) -> Result<Self> {
         let box_of = |id: usize| {
-            // One tick for many boxes: threads that all write to the job wait for each other.
+            // One tick for many boxes, because threads that write to the job wait for each other.
             let is_stopped = match id.is_multiple_of(GRAIN) {
                 true => job.tick(GRAIN).is_err(),
                 false => job.is_stopped(),
@@ -195,14 +196,14 @@ impl BoxTree {
         job.ask()?;
         let frame = GridFrame::fit(&bounds);
 
-        // Code and id share one word, so the order is total and a box moves as eight bytes.
+        // Code and id share one word. So the order is unique, and sorting moves eight bytes for each box.
         let id_bits = usize::BITS - count.leading_zeros();
         let axis_bits = ((u64::BITS - id_bits) / 3).min(21);
         let (mut keys, mut unsorted) = (Vec::new(), Vec::new());
         indices()
             .map(|id| {
                 let b = frame.pack(&box_of(id));
-                ((morton(&b.centre(), axis_bits) << id_bits) | id as u64, b)
+                ((morton(&b.center(), axis_bits) << id_bits) | id as u64, b)
             })
             .unzip_into_vecs(&mut keys, &mut unsorted);
         job.ask()?;
@@ -246,7 +247,7 @@ impl BoxTree {
     /// Puts the ids of all boxes that overlap `query` into `found`, in ascending order; `found` is cleared
     /// first.
     ///
-    /// Boxes that are apart by no more than a single-precision rounding may be included.
+    /// Boxes whose distance from `query` is at most a rounding error of single precision may be included.
     pub(crate) fn overlapping(&self, query: &Aabb, found: &mut Vec<u32>) {
         self.overlapping_at_most(usize::MAX, query, found);
     }
@@ -298,14 +299,13 @@ impl BoxTree {
         &self.siblings[self.levels[level] + group]
     }
 
-    /// Whether the level has so many groups: the last group above may have places left over.
+    /// Whether `group` exists on the level. The last group of the level above may have unused places.
     fn is_group(&self, level: usize, group: usize) -> bool {
         self.levels[level] + group < self.levels[level + 1]
     }
 
-    /// Calls `visit` with the id of every box that may be nearer to `p` than what was found, near ones
-    /// first; `visit` returns the squared distance of the nearest thing found so far, infinite when there
-    /// is none.
+    /// Calls `visit` with the id of every box that may be nearer to `p` than the best result so far, near boxes first.
+    /// `visit` returns the squared distance of the best result so far; infinite when there is none.
     ///
     /// `p` must be finite.
     pub(crate) fn search_near(&self, p: &Vec3, visit: impl FnMut(u32) -> f64) {
@@ -326,7 +326,7 @@ struct NearSearch<'a, F> {
     /// The point in the tree's units.
     p: Vec3,
     visit: F,
-    /// Squared distance of the nearest thing found, in the tree's units.
+    /// Squared distance of the best result so far, in the tree's units.
     bound: f64,
 }
 
@@ -371,7 +371,7 @@ fn sorted(mut keys: Vec<u64>, bits: u32, job: &Job<'_>) -> Result<Vec<u64>> {
         keys.sort_unstable();
         return Ok(keys);
     }
-    // A surface meets about 4 ^ level cells: this leaves some hundred keys in each.
+    // A surface meets about 4 ^ level cells, so each of these has some hundred keys.
     let cell_bits = 3 * (keys.len().ilog2() / 2 - 4).min(MOST_CELL_LEVELS);
     let cell = |key: u64| (key >> (bits - cell_bits)) as usize;
     let mut ends = vec![0_usize; 1 << cell_bits];

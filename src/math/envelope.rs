@@ -1,20 +1,22 @@
-//! Cholesky factorisation within the envelope of a symmetric matrix: each row is kept from its first entry to the
-//! diagonal, where all fill stays.
+//! Cholesky factorization within the envelope of a symmetric matrix.
 //!
-//! Based on: E. Cuthill, J. McKee, "Reducing the bandwidth of sparse symmetric matrices", ACM National
-//! Conference, 1969, reversed as A. George, J. W. Liu, "Computer solution of large sparse positive definite
-//! systems", Prentice-Hall, 1981, ch. 4 recommend; the factorisation row by row as A. Jennings, "A compact storage
-//! scheme for the solution of symmetric linear simultaneous equations", Computer Journal 9(3), 1966.
+//! Each row is stored from its first entry to the diagonal; the factor has no entries outside. The unknowns are
+//! ordered so that rows are short. This is faster than a general sparse factorization up to some thousand unknowns,
+//! because there is hardly any bookkeeping.
 //!
-//! Complexity: O(Σ w²) for rows of width w, about n² for the n interior vertices of a round patch. Faster than a
-//! general sparse factorisation up to some thousand unknowns: there is hardly any bookkeeping.
+//! Sources: E. Cuthill, J. McKee, "Reducing the bandwidth of sparse symmetric matrices", ACM National Conference, 1969,
+//! for the order, reversed as in A. George, J. W. Liu, "Computer solution of large sparse positive definite systems",
+//! Prentice-Hall, 1981, ch. 4; A. Jennings, "A compact storage scheme for the solution of symmetric linear simultaneous
+//! equations", Computer Journal 9(3), 1966, for the factorization row by row.
+//!
+//! Complexity: O(Σ w²) for rows of width w, about n² for the n interior vertices of a round patch.
 
 use super::Vec3;
-use super::sparse::SymmetricMatrix;
+use super::symmetric::SymmetricMatrix;
 use crate::error::Result;
 use crate::job::Job;
 
-/// An order of the unknowns that keeps rows short, and where the rows then start.
+/// An order of the unknowns with short rows, and the first column of each row in this order.
 pub(super) struct Envelope {
     /// The unknown at each place.
     order: Vec<u32>,
@@ -25,9 +27,9 @@ pub(super) struct Envelope {
 }
 
 impl Envelope {
-    /// Numbers the unknowns level by level from one at the end of the longest way that is found.
+    /// Orders the unknowns level by level, starting from one that is far from the others.
     pub(super) fn new(matrix: &SymmetricMatrix) -> Self {
-        let neighbours = RowNeighbors::new(matrix);
+        let neighbors = RowNeighbors::new(matrix);
         let size = matrix.size();
         let mut order = Vec::with_capacity(size);
         let mut is_placed = vec![false; size];
@@ -35,14 +37,14 @@ impl Envelope {
             if is_placed[seed as usize] {
                 continue;
             }
-            // From an arbitrary unknown to one far away, and from there through the component.
+            // The first walk, from any unknown, finds a far one. The second walk starts there.
             let start = order.len();
-            neighbours.walk(seed, &mut order, &mut is_placed);
+            neighbors.walk(seed, &mut order, &mut is_placed);
             let far = order[order.len() - 1];
             for v in order.drain(start..) {
                 is_placed[v as usize] = false;
             }
-            neighbours.walk(far, &mut order, &mut is_placed);
+            neighbors.walk(far, &mut order, &mut is_placed);
         }
         order.reverse();
         let mut place = vec![0; size];
@@ -52,7 +54,7 @@ impl Envelope {
         let first = (0_u32..)
             .zip(&order)
             .map(|(at, &v)| {
-                let places = neighbours.of(v).iter().map(|&u| place[u as usize]);
+                let places = neighbors.of(v).iter().map(|&u| place[u as usize]);
                 places.fold(at, u32::min)
             })
             .collect();
@@ -63,7 +65,7 @@ impl Envelope {
         }
     }
 
-    /// Multiplications that the factorisation takes, give or take a factor of two.
+    /// Number of multiplications of the factorization, up to a factor of two.
     pub(super) fn work(&self) -> u64 {
         (0_u64..)
             .zip(&self.first)
@@ -75,7 +77,7 @@ impl Envelope {
     /// positive definite.
     ///
     /// # Errors
-    /// `Cancelled` when the job is stopped.
+    /// `Cancelled` when the job is cancelled.
     pub(super) fn solve(
         &self,
         matrix: &SymmetricMatrix,
@@ -84,7 +86,7 @@ impl Envelope {
         job: &Job<'_>,
     ) -> Result<Option<Vec<Vec3>>> {
         let mut rows = self.scatter(matrix, shift);
-        if !rows.factorise(job)? {
+        if !rows.factorize(job)? {
             return Ok(None);
         }
         let mut solution = vec![Vec3::zeros(); right_side.len()];
@@ -129,7 +131,7 @@ impl Envelope {
     }
 }
 
-/// The neighbours of each unknown in the graph of the matrix.
+/// The neighbors of each unknown in the graph of the matrix.
 struct RowNeighbors {
     starts: Vec<u32>,
     list: Vec<u32>,
@@ -146,7 +148,7 @@ impl RowNeighbors {
                     rows.iter().map(move |&i| (i, j)).filter(|(i, j)| i != j)
                 })
         };
-        // Counted two places ahead: placing moves each start to the next one.
+        // Counts are stored two places ahead, because placing the entries moves each start to the next one.
         let mut starts = vec![0; size + 2];
         for (i, j) in pairs() {
             starts[i as usize + 2] += 1;
@@ -171,7 +173,7 @@ impl RowNeighbors {
         &self.list[self.starts[v as usize] as usize..self.starts[v as usize + 1] as usize]
     }
 
-    /// Appends everything that is reached from `start`, breadth first, to `order`.
+    /// Appends all unknowns that are reached from `start` to `order`, breadth first.
     fn walk(&self, start: u32, order: &mut Vec<u32>, is_placed: &mut [bool]) {
         let mut head = order.len();
         is_placed[start as usize] = true;
@@ -196,7 +198,7 @@ struct EnvelopeRows<'a> {
 
 impl EnvelopeRows<'_> {
     /// Replaces the matrix by its factor; false when it is not positive definite.
-    fn factorise(&mut self, job: &Job<'_>) -> Result<bool> {
+    fn factorize(&mut self, job: &Job<'_>) -> Result<bool> {
         for i in 0..self.first.len() {
             let (above, row) = self.values.split_at_mut(self.starts[i]);
             let first = self.first[i] as usize;
@@ -240,7 +242,7 @@ impl EnvelopeRows<'_> {
     }
 }
 
-/// The scalar product, summed in four lanes so that they are computed side by side.
+/// The scalar product, in four sums so that the compiler vectorizes it.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (a_lanes, a_rest) = a.as_chunks::<4>();
     let (b_lanes, b_rest) = b.as_chunks::<4>();
@@ -287,7 +289,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_solution_is_that_of_the_dense_factorisation(
+        fn the_solution_is_that_of_the_dense_factorization(
             size in 1_usize..40,
             entries in prop::collection::vec((0_usize..40, 0_usize..40, -1.0..1.0f64), 0..120),
         ) {

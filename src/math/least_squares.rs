@@ -1,32 +1,32 @@
-//! Linear least squares by a QR factorisation that takes the equations in blocks.
+//! Linear least squares by a QR factorization that reads the equations in blocks.
 //!
-//! Based on: G. H. Golub, C. F. Van Loan, "Matrix computations", 4th edition, 2013, sections 5.2 and 5.3:
-//! Householder reflections fold each block of equations into an upper triangle. The matrix is never
-//! squared, so the error grows with its condition number and not with the square of it, and the memory does
-//! not grow with the number of equations.
+//! Householder reflections reduce each block of equations, together with the triangle so far, to an upper triangle. The
+//! normal equations are not used, so the error grows with the condition number and not with its square. The memory does
+//! not depend on the number of equations.
 //!
-//! O(n²) operations for each equation with n unknowns.
+//! Source: G. H. Golub, C. F. Van Loan, "Matrix computations", 4th edition, 2013, sections 5.2 and 5.3. Cost: O(n²) for
+//! each equation with n unknowns.
 
-/// Equations that are folded in together.
+/// Number of equations in a block.
 const BLOCK: usize = 32;
 
-/// A diagonal entry of the triangle below this share of the largest one counts as zero: the equations do not
-/// determine that unknown.
+/// A diagonal entry of the triangle that is below this share of the largest one counts as zero. Then the equations do
+/// not determine that unknown.
 const SMALLEST_PIVOT: f64 = 1e-9;
 
 /// A system of equations with one or several right-hand sides.
 pub(crate) struct LeastSquares {
     unknowns: usize,
     columns: usize,
-    /// Row by row: the upper triangle, and right of it the right-hand sides.
+    /// The upper triangle with the right-hand sides to its right, row by row.
     triangle: Vec<f64>,
-    /// The equations that wait, column by column.
+    /// The equations of the present block, column by column.
     block: Vec<[f64; BLOCK]>,
     filled: usize,
 }
 
 impl LeastSquares {
-    /// No equation yet.
+    /// A system without equations.
     pub(crate) fn new(unknowns: usize, right_sides: usize) -> Self {
         let columns = unknowns + right_sides;
         Self {
@@ -38,7 +38,7 @@ impl LeastSquares {
         }
     }
 
-    /// Forgets all equations.
+    /// Removes all equations.
     pub(crate) fn clear(&mut self) {
         self.triangle.fill(0.0);
         self.filled = 0;
@@ -89,9 +89,9 @@ impl LeastSquares {
         }
     }
 
-    /// Writes the first unknown's value for each right-hand side to `out`, with all unknowns taken into
-    /// account; if the equations do not determine them, only the first so many for which they do, by the counts
-    /// in `fewer` (descending). Returns whether there is a solution.
+    /// Writes the value of the first unknown for each right-hand side to `out`. If the equations do not determine all
+    /// unknowns, only the first ones are used; the numbers in `fewer`, in descending order, are tried in turn. Returns
+    /// whether there is a solution.
     pub(crate) fn first_unknown(&mut self, fewer: &[usize], out: &mut [f64]) -> bool {
         if self.filled > 0 {
             self.fold();

@@ -1,14 +1,17 @@
-//! Vectors, planes, boxes, random numbers and the sparse solver: no mesh, no hole.
+//! Mathematics without meshes: vectors, planes, boxes, search trees, random numbers, linear solvers.
 
 pub(crate) mod aabb;
+pub(crate) mod adjacency;
 mod background;
 pub(crate) mod box_tree;
 mod envelope;
+pub(crate) mod frame;
 pub(crate) mod least_squares;
 pub(crate) mod plane;
 pub(crate) mod random;
 pub(crate) mod segments;
 pub(crate) mod sparse;
+pub(crate) mod symmetric;
 
 /// A point or direction; the type that all geometry is computed in.
 pub(crate) type Vec3 = nalgebra::Vector3<f64>;

@@ -1,18 +1,18 @@
-//! The principal directions of a set of points, and how far it spreads along them.
+//! Principal component analysis of points in space: centroid, principal directions, and spread along them.
 
 use super::Vec3;
 use nalgebra::{Matrix3, SymmetricEigen};
 
-/// Root mean square distance of `points` from their centroid along each principal direction, largest first;
-/// zeros when there is no point. The last one is the distance from the plane of least squares.
+/// Root mean square distance of `points` from their centroid along each principal direction, largest first; zeros when
+/// there is no point. The last value is the distance from the least squares plane.
 pub(crate) fn principal_spreads(points: &[Vec3]) -> [f64; 3] {
     let mut spreads = eigen(points).1.eigenvalues.map(|v| v.max(0.0).sqrt());
     spreads.as_mut_slice().sort_by(|a, b| b.total_cmp(a));
     spreads.into()
 }
 
-/// The centroid of `points` and their principal directions, unit vectors, by falling spread: the first two
-/// span the plane of least squares, the last is its normal.
+/// The centroid of `points` and their principal directions as unit vectors, by descending spread. The first two span
+/// the least squares plane; the last is its normal.
 pub(crate) fn principal_axes(points: &[Vec3]) -> (Vec3, [Vec3; 3]) {
     let (centroid, eigen) = eigen(points);
     let mut order = [0, 1, 2];

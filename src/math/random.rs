@@ -1,9 +1,9 @@
-//! The random numbers of the methods that use some: seeded, and the same on every machine.
+//! Random numbers with a seed. They are the same on every machine.
 
 use rand_pcg::Pcg64;
 
-/// The generator number `stream` of a computation with the seed `seed`. Different streams of one seed are
-/// independent for all purposes here, so that parts of a computation may draw in any order.
+/// The generator number `stream` for the seed `seed`. Different streams of one seed are independent, so parts of a
+/// computation may use them in any order.
 pub(crate) fn seeded(seed: u64, stream: u64) -> Pcg64 {
     Pcg64::new(u128::from(seed), u128::from(stream))
 }
@@ -26,7 +26,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbouring_streams_are_not_alike() {
+    fn neighboring_streams_are_not_alike() {
         let mean = |seed: u64| {
             let total: f64 = (0..1000).map(|s| seeded(seed, s).random::<f64>()).sum();
             total / 1000.0

@@ -1,4 +1,4 @@
-//! Distance from a set of line segments.
+//! The distance from a point to a set of line segments, with an index for many segments.
 
 use super::Vec3;
 use super::aabb::Aabb;
@@ -28,7 +28,7 @@ impl Segments {
     /// Indexes the segments, which must be finite. O(n log n).
     ///
     /// # Errors
-    /// `Cancelled` when the job is stopped.
+    /// `Cancelled` when the job is cancelled.
     pub(crate) fn new(ends: Vec<[Vec3; 2]>, job: &Job<'_>) -> Result<Self> {
         let tree = BoxTree::build(ends.len(), |i| Aabb::around(&ends[i]), job)?;
         Ok(Self { ends, tree })

@@ -1,9 +1,10 @@
-//! Sparse symmetric positive definite systems: small ones are solved within their envelope, large ones by the
-//! supernodal Cholesky factorisation of `faer`.
+//! Solves sparse symmetric positive definite systems: small ones by Cholesky factorization within the envelope, large
+//! ones by the supernodal Cholesky factorization of `faer`.
 
 use super::Vec3;
 use super::background::run_in_background;
 use super::envelope::Envelope;
+use super::symmetric::SymmetricMatrix;
 use crate::error::{Error, ErrorKind, Result};
 use crate::job::Job;
 use faer::linalg::solvers::SolveCore;
@@ -11,39 +12,22 @@ use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Mat, Side};
 
-/// Systems of more unknowns than this are not worth a look at their envelope.
+/// Upper bound on the unknowns of a system for which the envelope is computed.
 const ENVELOPE_UNKNOWNS: usize = 4096;
-/// Multiplications up to which the envelope is faster than the bookkeeping of a sparse factorisation.
+
+/// Upper bound on the multiplications of a factorization within the envelope. With more, the sparse factorization is
+/// faster.
 const ENVELOPE_WORK: u64 = 10_000_000;
 
-/// Systems of more unknowns are solved on a thread of their own, for which nobody has to wait who wants to stop: the
-/// steps of the factorisation cannot be cancelled. Up to here each takes some milliseconds.
+/// Upper bound on the unknowns of a system that is solved on the calling thread. The steps of a factorization cannot
+/// be cancelled; up to this size each takes some milliseconds. A larger system is solved on a thread of its own, so
+/// that the caller can be cancelled.
 const WAITED_FOR: usize = 10_000;
 
-/// Added to the diagonal, relative to its mean, against loss of definiteness by rounding.
+/// Added to the diagonal, relative to its mean, so that rounding errors do not make the matrix indefinite.
 const RELATIVE_SHIFT: f64 = 1e-12;
 
-/// The lower triangle of a symmetric matrix, column by column, with ascending rows.
-///
-/// The diagonal entry comes first in each column and must be present.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct SymmetricMatrix {
-    /// Start of each column in `rows` and `values`; one more entry than columns.
-    pub(crate) column_starts: Vec<u32>,
-    /// Row of each entry.
-    pub(crate) rows: Vec<u32>,
-    /// Value of each entry.
-    pub(crate) values: Vec<f64>,
-}
-
-impl SymmetricMatrix {
-    /// Number of rows and columns.
-    pub(crate) fn size(&self) -> usize {
-        self.column_starts.len().saturating_sub(1)
-    }
-}
-
-/// A solver that keeps the symbolic factorisation while the pattern of the matrix stays the same.
+/// A solver that keeps the symbolic factorization while the pattern of the matrix stays the same.
 pub(crate) struct SpdSolver<'a> {
     job: &'a Job<'a>,
     pattern: (Vec<u32>, Vec<u32>),
@@ -51,7 +35,7 @@ pub(crate) struct SpdSolver<'a> {
 }
 
 impl<'a> SpdSolver<'a> {
-    /// A solver that knows no pattern yet.
+    /// A solver without a symbolic factorization.
     pub(crate) fn new(job: &'a Job<'a>) -> Self {
         Self {
             job,
@@ -60,7 +44,7 @@ impl<'a> SpdSolver<'a> {
         }
     }
 
-    /// What the solver works for, for the work that makes the system.
+    /// The job of the solver, for the code that builds the system.
     pub(crate) fn job(&self) -> &'a Job<'a> {
         self.job
     }
@@ -69,7 +53,7 @@ impl<'a> SpdSolver<'a> {
     ///
     /// # Errors
     /// [`ErrorKind::Solver`] when the matrix is not positive definite or the solution not finite;
-    /// [`ErrorKind::Cancelled`] when the job is stopped.
+    /// [`ErrorKind::Cancelled`] when the job is cancelled.
     pub(crate) fn solve(
         &mut self,
         mut matrix: SymmetricMatrix,
@@ -113,7 +97,7 @@ impl<'a> SpdSolver<'a> {
     }
 }
 
-/// Solves a large system; `known` is the symbolic factorisation of its pattern, if there is one yet.
+/// Solves a large system. `known` is the symbolic factorization of its pattern, if there is one.
 fn factor_and_solve(
     matrix: &SymmetricMatrix,
     known: Option<SymbolicLlt<u32>>,
@@ -127,12 +111,12 @@ fn factor_and_solve(
     let symbolic = match known {
         Some(symbolic) => symbolic,
         None => SymbolicLlt::try_new(pattern, Side::Lower)
-            .map_err(|e| failed(format!("symbolic factorisation: {e:?}")))?,
+            .map_err(|e| failed(format!("symbolic factorization: {e:?}")))?,
     };
     job.ask()?;
     let values = SparseColMatRef::new(pattern, &matrix.values[..]);
     let factor = Llt::try_new_with_symbolic(symbolic.clone(), values, Side::Lower)
-        .map_err(|e| failed(format!("factorisation of {size} unknowns: {e:?}")))?;
+        .map_err(|e| failed(format!("factorization of {size} unknowns: {e:?}")))?;
     job.ask()?;
     let mut x = Mat::from_fn(size, 3, |i, k| right_side[i][k]);
     factor.solve_in_place_with_conj(Conj::No, x.as_mut());

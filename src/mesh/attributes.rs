@@ -1,8 +1,7 @@
 //! Named columns of values over the vertices or the faces of a mesh.
 //!
-//! A column has one entry per element: a number of one of eight types, or a list of such numbers.
-//! [`Attributes`] keeps all its columns at the same length; the append operations extend every
-//! column at once, so a mesh that grows cannot leave one behind.
+//! A column has one entry for each element: a number of one of eight types, or a list of such numbers. In
+//! [`Attributes`], all columns have the same length. The append operations extend all columns at once.
 
 mod values;
 
@@ -21,7 +20,7 @@ pub enum AttributeValues {
 }
 
 impl AttributeValues {
-    /// How many entries there are.
+    /// The number of entries.
     #[must_use]
     pub fn len(&self) -> usize {
         match self {
@@ -112,7 +111,7 @@ pub struct Attributes {
 }
 
 impl Attributes {
-    /// No columns, over `len` elements.
+    /// A list without columns, for `len` elements.
     #[must_use]
     pub fn new(len: usize) -> Self {
         Self {
@@ -121,13 +120,13 @@ impl Attributes {
         }
     }
 
-    /// How many elements (entries per column) there are.
+    /// The number of elements, which is the number of entries of each column.
     #[must_use]
     pub fn len(&self) -> usize {
         self.len
     }
 
-    /// Whether there are no elements; there may still be columns.
+    /// Whether there are no elements. There may be columns nevertheless.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len == 0
@@ -189,9 +188,9 @@ impl Attributes {
         Ok(())
     }
 
-    /// Appends one element per item of `sources`: in a column of numbers, new element `j` gets
-    /// `value(column, j)`, where `column` still has its old entries only (see
-    /// [`ScalarValues::push`] for the rounding); in a column of lists, a copy of `sources[j]`.
+    /// Appends one element for each item of `sources`. In a column of numbers, new element `j` gets `value(column,
+    /// j)`, where `column` has only its old entries; see [`ScalarValues::push`] for rounding. In a column of lists,
+    /// it gets a copy of `sources[j]`.
     ///
     /// # Errors
     /// [`crate::ErrorKind::InvalidInput`] when a source is not an existing element; nothing changes then.

@@ -1,35 +1,20 @@
-//! Which triangle lies on the other side of which edge: connectivity without coordinates.
+//! The connectivity of a mesh, without coordinates: the triangle on the other side of each edge.
 //!
-//! Halfedge `3 * f + k` runs from corner `k` of triangle `f` to corner `(k + 1) % 3`. Every halfedge has
-//! its link, made by [`super::linking`]; the halfedges that leave a vertex are kept for the vertices of
-//! the boundary only, which are the ones that a patch is joined to.
+//! Halfedge `3 * f + k` runs from corner `k` of triangle `f` to corner `(k + 1) % 3`. Each halfedge has a link, made by
+//! [`super::linking`]: the other halfedge of its edge, or a mark. The halfedges that leave a vertex are stored for
+//! boundary vertices only, because patches are joined to these.
 
 use super::defects::MeshDefects;
+use super::halfedge::{BOUNDARY, NON_MANIFOLD, Outgoing, origin, target};
 use super::linking::link_halfedges;
 use super::rim_table::RimTable;
 use super::survey::survey;
 use crate::error::Result;
 use std::collections::BTreeMap;
 
-/// One part in so many is free behind the arrays of a new mesh, so that the first fills do not move them: without it
-/// closing one hole of a large mesh costs as much as moving its pages.
+/// The arrays of a new mesh have free space for one `ROOM`th more entries. So the first patches do not move the arrays,
+/// which would cost more than filling a small hole.
 pub(super) const ROOM: usize = 16;
-
-/// Link of a halfedge whose edge has one triangle.
-pub(crate) const BOUNDARY: u32 = u32::MAX;
-/// Link of a halfedge whose edge has three or more triangles.
-pub(crate) const NON_MANIFOLD: u32 = u32::MAX - 1;
-/// Link of the halfedges of a triangle that names a vertex twice; such a triangle has no neighbours.
-pub(crate) const DEGENERATE: u32 = u32::MAX - 2;
-
-/// A halfedge as seen from the vertex where it starts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Outgoing {
-    /// Vertex where the halfedge ends; `u32::MAX` in a triangle that names a vertex twice.
-    pub(crate) target: u32,
-    /// The halfedge.
-    pub(crate) halfedge: u32,
-}
 
 /// Halfedge links, and the outgoing halfedges of the vertices on the boundary.
 #[derive(Clone, Debug, Default)]
@@ -40,42 +25,9 @@ pub(crate) struct Connectivity {
     /// Number of halfedges of the mesh as it was built.
     built: usize,
     rim: RimTable,
-    /// Outgoing halfedges of triangles that were appended after the mesh was built, at the vertices that were
-    /// on the rim of what was appended with them.
+    /// Outgoing halfedges of triangles that were appended after the mesh was built. They are stored for the vertices on
+    /// the rims of the appended patches.
     appended: BTreeMap<u32, Vec<Outgoing>>,
-}
-
-/// The next halfedge in the same triangle.
-pub(crate) fn next(halfedge: u32) -> u32 {
-    if halfedge % 3 == 2 {
-        halfedge - 2
-    } else {
-        halfedge + 1
-    }
-}
-
-/// The previous halfedge in the same triangle.
-pub(crate) fn previous(halfedge: u32) -> u32 {
-    if halfedge.is_multiple_of(3) {
-        halfedge + 2
-    } else {
-        halfedge - 1
-    }
-}
-
-/// Vertex where `halfedge` starts.
-pub(crate) fn origin(triangles: &[[u32; 3]], halfedge: u32) -> u32 {
-    triangles[halfedge as usize / 3][halfedge as usize % 3]
-}
-
-/// Vertex where `halfedge` ends.
-pub(crate) fn target(triangles: &[[u32; 3]], halfedge: u32) -> u32 {
-    origin(triangles, next(halfedge))
-}
-
-/// Whether a triangle names a vertex twice.
-pub(super) fn is_degenerate(t: &[u32; 3]) -> bool {
-    t[0] == t[1] || t[1] == t[2] || t[2] == t[0]
 }
 
 impl Connectivity {
@@ -113,8 +65,8 @@ impl Connectivity {
 
     /// All halfedges that start at `vertex`, in ascending order.
     ///
-    /// Of the triangles that the mesh was built with, or that were appended together, only those at vertices
-    /// on the boundary of these triangles are known: for any other vertex they are left out.
+    /// Halfedges are known only at boundary vertices: of the mesh as it was built, and of each set of triangles that
+    /// were appended together. At other vertices they are left out.
     pub(crate) fn outgoing(&self, vertex: u32) -> impl Iterator<Item = Outgoing> + '_ {
         let appended = self.appended.get(&vertex).map_or(&[][..], Vec::as_slice);
         self.rim.outgoing(vertex).iter().chain(appended).copied()
@@ -123,7 +75,7 @@ impl Connectivity {
     /// The link of `halfedge`: the other halfedge of its edge, or [`BOUNDARY`], [`NON_MANIFOLD`],
     /// [`DEGENERATE`].
     ///
-    /// The linked halfedge runs the other way, unless the two triangles are oriented inconsistently.
+    /// The linked halfedge has the opposite direction, unless the two triangles are oriented inconsistently.
     pub(crate) fn twin(&self, halfedge: u32) -> u32 {
         self.twin[halfedge as usize]
     }
@@ -135,7 +87,7 @@ impl Connectivity {
 
     /// All boundary halfedges in ascending order.
     ///
-    /// Linear in the boundary of the mesh as it was built and in what was appended.
+    /// Linear in the number of boundary halfedges of the mesh as it was built and of appended triangles.
     pub(crate) fn boundary_halfedges(&self) -> Vec<u32> {
         let appended = self.built as u32..self.twin.len() as u32;
         let is_open = |&h: &u32| self.twin(h) == BOUNDARY;
@@ -149,7 +101,7 @@ impl Connectivity {
 
     /// Whether some triangle has the edge `{a, b}`.
     ///
-    /// As [`outgoing`](Self::outgoing), this knows the triangles at vertices on the boundary only.
+    /// As [`outgoing`](Self::outgoing), this knows only triangles at boundary vertices.
     pub(crate) fn has_edge(&self, a: u32, b: u32) -> bool {
         self.outgoing(a).any(|o| o.target == b) || self.outgoing(b).any(|o| o.target == a)
     }
@@ -163,12 +115,12 @@ impl Connectivity {
         })
     }
 
-    /// Links the triangles from `first_face` on, which were appended to `triangles`, with each other, as `twins`
-    /// says ([`pair_halfedges`](super::pairing::pair_halfedges) of them alone), and with the boundary. Cost follows the
-    /// number of appended triangles.
+    /// Links the triangles from `first_face` on, which were appended to `triangles`. `twins` pairs their halfedges with
+    /// each other, from [`pair_halfedges`](super::pairing::pair_halfedges) of these triangles alone. Their other
+    /// halfedges are linked with the boundary. The cost is proportional to the number of appended triangles.
     ///
-    /// Requires that the appended triangles close boundary edges with opposite halfedges and share no
-    /// edge with any other triangle; the pipeline verifies that before it appends.
+    /// Their other halfedges must be opposite to boundary halfedges, and they must share no other edge with the mesh.
+    /// The pipeline verifies that before it appends.
     pub(crate) fn append(&mut self, triangles: &[[u32; 3]], first_face: usize, twins: &[u32]) {
         let halfedges = 3 * first_face as u32..3 * triangles.len() as u32;
         debug_assert_eq!(halfedges.len(), twins.len());
@@ -195,7 +147,7 @@ impl Connectivity {
             .collect();
         rim_vertices.sort_unstable();
         rim_vertices.dedup();
-        // New vertices, which are most, come behind those of the rim.
+        // New vertices, which are the most, have higher numbers than those of the rim.
         let last = rim_vertices.last().copied().unwrap_or(0);
         for halfedge in halfedges {
             let (start, target) = ends(halfedge);
@@ -211,8 +163,8 @@ impl Connectivity {
         self.twin[h as usize] = g;
     }
 
-    /// Takes back what [`append`](Self::append) did for the triangles from `first_face` on, which are still in
-    /// `triangles`. Cost follows their number.
+    /// Reverts [`append`](Self::append) for the triangles from `first_face` on, which must still be in `triangles`. The
+    /// cost is proportional to their number.
     pub(crate) fn truncate(&mut self, triangles: &[[u32; 3]], first_face: usize) {
         let first_halfedge = 3 * first_face as u32;
         for h in first_halfedge..self.twin.len() as u32 {

@@ -1,9 +1,10 @@
-//! The connectivity of arbitrary triangles against a slow, plain reading of its definition.
+//! Tests: compares the connectivity of arbitrary triangles with a slow, simple implementation of its definition.
 
-use super::connectivity::{
-    BOUNDARY, Connectivity, DEGENERATE, NON_MANIFOLD, Outgoing, is_degenerate, origin, target,
-};
+use super::connectivity::Connectivity;
 use super::defects::{Defect, MeshDefects};
+use super::halfedge::{
+    BOUNDARY, DEGENERATE, NON_MANIFOLD, Outgoing, is_degenerate, origin, target,
+};
 use super::pairing::pair_halfedges;
 use proptest::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};

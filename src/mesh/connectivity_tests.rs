@@ -1,9 +1,8 @@
-//! Connectivity against a search through all pairs of halfedges.
+//! Tests: compares the connectivity with a search through all pairs of halfedges.
 
-use super::connectivity::{
-    BOUNDARY, Connectivity, DEGENERATE, NON_MANIFOLD, next, origin, previous, target,
-};
+use super::connectivity::Connectivity;
 use super::defects::MeshDefects;
+use super::halfedge::{BOUNDARY, DEGENERATE, NON_MANIFOLD, next, origin, previous, target};
 use super::pairing::pair_halfedges;
 use super::trimesh::TriMesh;
 use crate::error::ErrorKind;

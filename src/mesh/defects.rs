@@ -1,9 +1,9 @@
-//! What is irregular in a mesh: counted when it is built, kept as it is.
+//! Defects of a mesh. They are counted when the mesh is built, and never repaired.
 
-/// How many examples of each kind of defect are remembered.
+/// Upper bound on the stored examples of each kind of defect.
 const EXAMPLES: usize = 4;
 
-/// One kind of defect: how often it occurs, and the first few places.
+/// One kind of defect: its number of occurrences, and the first few of them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Defect<T> {
     /// Number of occurrences in the mesh.
@@ -35,9 +35,9 @@ impl<T> Defect<T> {
 pub struct MeshDefects {
     /// Edges with three or more triangles, as vertex pairs.
     pub nonmanifold_edges: Defect<[u32; 2]>,
-    /// Edges whose two triangles run along them in the same direction, as vertex pairs.
+    /// Edges whose two triangles have them in the same direction, as vertex pairs.
     pub inconsistent_edges: Defect<[u32; 2]>,
-    /// Triangles that name a vertex twice; they take no part in the connectivity.
+    /// Triangles that name a vertex twice. The connectivity ignores them.
     pub degenerate_faces: Defect<u32>,
     /// Triangles with the same three vertices as an earlier one.
     pub duplicate_faces: Defect<u32>,
@@ -52,7 +52,7 @@ impl MeshDefects {
         self.summary().is_empty()
     }
 
-    /// One line for each kind of defect that occurs, with its count and first places.
+    /// One line for each kind of defect that occurs, with its count and its first occurrences.
     #[must_use]
     pub fn summary(&self) -> Vec<String> {
         let mut lines = Vec::new();

@@ -1,42 +1,45 @@
 //! Links the two halfedges of every edge, in one pass over the triangles and without a hash table.
 //!
-//! Each vertex heads a list of the edges to its neighbours of higher index. A halfedge is looked up in
-//! the list of its lower end: it joins the halfedge that is there with the same other end, or becomes the
-//! first halfedge of a new edge. The lists need no memory of their own, because they run through the
-//! slots that hold the links in the end:
+//! Each vertex has a linked list of the edges to its neighbors of higher index. A halfedge is looked up in the list
+//! of its lower end. If the list has an edge with the same other end, the halfedge joins it; otherwise it becomes the
+//! first halfedge of a new edge. The lists need no memory of their own, because their pointers are stored in the
+//! slots that will hold the links:
 //!
 //! ```text
 //! first halfedge h, alone:       slot[h] = next edge of the list (an earlier halfedge, so below h)
 //! joined by a later one, g:      slot[h] = g (above h)       slot[g] = next edge of the list
 //! ```
 //!
-//! While the lists exist, corner `k` of triangle `f` stands for its halfedge as the [`Key`]
-//! `4 * f + k + 1`: triangle and corner are had without a division, and zero ends a list.
+//! While the lists exist, the halfedge of corner `k` of triangle `f` has the [`Key`] `4 * f + k + 1`. So triangle and
+//! corner are computed without a division, and zero ends a list.
 //!
-//! Parts of the vertex range are handled in parallel: a slot belongs to the part that has the lower end of
-//! its edge, so that no slot is touched by two parts. What is irregular (an edge with a third halfedge, a
-//! list that has become long) is set aside and sorted at the end.
+//! The vertices are divided into ranges that are processed in parallel. A slot belongs to the range with the lower
+//! end of its edge, so no slot is used by two ranges. Edges with a third halfedge and lists that are too long are set
+//! aside and sorted at the end.
+//!
+//! Cost: linear; O(n log n) in what is set aside.
 
-use super::connectivity::{
+use super::defects::MeshDefects;
+use super::halfedge::{
     BOUNDARY, DEGENERATE, NON_MANIFOLD, is_degenerate, origin, previous, target,
 };
-use super::defects::MeshDefects;
 use super::survey::{FACE_CHUNK, FaceChunk};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// A list with more edges than this is taken apart, so that vertices of very high valence cost O(n log n).
+/// Upper bound on the edges of a list. A longer list is set aside, so that vertices of very high valence cost O(n log
+/// n).
 const LONGEST_LIST: usize = 48;
-/// At most this many parts: where the vertices are in no order, each part reads all triangles.
+/// Upper bound on the number of parallel parts. If the vertices have no spatial order, each part reads all triangles.
 const MOST_PARTS: usize = 16;
-/// Head of a list that was taken apart: the key of no triangle.
+/// Mark at the head of a list that was set aside. It is the key of no triangle.
 const TAKEN_APART: u32 = u32::MAX;
 
-/// What came of linking.
+/// The result of linking.
 pub(super) struct Links {
     /// The link of every halfedge.
     pub(super) twin: Vec<u32>,
-    /// All boundary halfedges, in no order.
+    /// All boundary halfedges, unordered.
     pub(super) boundary: Vec<Vec<u32>>,
 }
 
@@ -105,22 +108,22 @@ fn take_all<T>(found: &mut [Found], of: impl Fn(&mut Found) -> &mut Vec<T>) -> V
 /// A halfedge with its edge: the lower end, the higher end, the halfedge.
 type EdgeHalfedge = (u32, u32, u32);
 
-/// What a part has found.
+/// The irregularities that a part has found.
 #[derive(Default)]
 struct Found {
     boundary: Vec<u32>,
-    /// Halfedges of edges that sorting must link.
+    /// Halfedges that are linked later, by sorting.
     set_aside: Vec<EdgeHalfedge>,
-    /// The lower halfedge of edges whose two triangles run the same way.
+    /// The lower halfedge of each edge whose two triangles have it in the same direction.
     inconsistent: Vec<u32>,
     /// Triangles with the vertices of an earlier one.
     duplicates: Vec<u32>,
 }
 
-/// A halfedge in a list, see above.
+/// The number of a halfedge in a list, see the head of this file.
 type Key = u32;
 
-/// The halfedge that a key stands for.
+/// The halfedge of a key.
 fn halfedge_of(key: Key) -> u32 {
     key - key / 4 - 1
 }
@@ -173,9 +176,10 @@ impl Part<'_> {
         }
     }
 
-    /// Looks a halfedge up in the list of its lower end; `t` is its triangle from its origin on.
+    /// Looks a halfedge up in the list of its lower end, and joins it or adds it. `t` is its triangle, starting at its
+    /// origin.
     ///
-    /// Always inlined: a call costs as much as the few steps through the list.
+    /// It is always inlined, because a call would cost as much as the few steps through the list.
     #[inline(always)]
     fn add(&mut self, t: [u32; 3], key: Key) {
         let ends = t[0] ^ t[1];
@@ -190,7 +194,7 @@ impl Part<'_> {
                 return self.set_aside(t, [key]);
             };
             let slot = self.slot(edge);
-            // Both edges have the same lower end: the exclusive or tells the other ends apart.
+            // Both edges have the same lower end, so the exclusive or compares the other ends.
             if ends_of(other, edge) == ends {
                 return self.join(t, key, other, edge, slot);
             }
@@ -215,7 +219,7 @@ impl Part<'_> {
         self.set_slot(key, slot);
         self.set_slot(edge, key);
         let is_inconsistent = other[edge as usize % 4 - 1] == t[0];
-        // With the same ends, the exclusive or of all vertices tells the third ones apart.
+        // The ends are equal, so the exclusive or of all vertices compares the third vertices.
         let is_duplicate = other[0] ^ other[1] ^ other[2] == t[0] ^ t[1] ^ t[2];
         if is_inconsistent | is_duplicate {
             self.note(is_inconsistent, is_duplicate, edge, key);
@@ -230,7 +234,7 @@ impl Part<'_> {
         self.found.set_aside.extend(halfedges);
     }
 
-    /// Notes what is irregular about two halfedges that were joined.
+    /// Records irregularities of two halfedges that were joined.
     #[cold]
     fn note(&mut self, is_inconsistent: bool, is_duplicate: bool, first: Key, second: Key) {
         if is_inconsistent {
@@ -241,7 +245,7 @@ impl Part<'_> {
         }
     }
 
-    /// Calls `visit` with each edge of a list: its first halfedge, and the second one if there is one.
+    /// Calls `visit` with each edge of a list: its first halfedge, and its second one if it has one.
     fn walk(&mut self, place: usize, mut visit: impl FnMut(&mut Self, Key, Option<Key>)) {
         let mut edge = self.heads[place];
         while edge != 0 && edge != TAKEN_APART {
@@ -285,13 +289,13 @@ impl Part<'_> {
     }
 }
 
-/// Links what the lists could not, and gathers what is to be recorded.
+/// Links the halfedges that were set aside, and collects the irregularities.
 struct Irregular<'a> {
     triangles: &'a [[u32; 3]],
     twin: &'a mut [u32],
     boundary: Vec<u32>,
     inconsistent: Vec<u32>,
-    /// Halfedges of edges with three or more, edge by edge, each edge ascending.
+    /// The halfedges of each edge with three or more, in ascending order.
     nonmanifold: Vec<Vec<u32>>,
     duplicates: Vec<u32>,
 }
@@ -329,8 +333,8 @@ impl Irregular<'_> {
         }
     }
 
-    /// Finds the duplicates among the triangles at edges with three or more; other duplicates share an
-    /// edge with their original alone and were found when it was linked.
+    /// Finds the duplicates among the triangles at edges with three or more. Other duplicates were found when their
+    /// edges were linked.
     fn find_duplicates(&mut self) {
         let mut faces: Vec<([u32; 3], u32)> = self
             .nonmanifold
@@ -350,7 +354,7 @@ impl Irregular<'_> {
 
     fn record(mut self, defects: &mut MeshDefects) {
         let edge = |h: u32| [origin(self.triangles, h), target(self.triangles, h)];
-        // A third halfedge may have come later, or the edge may have been linked twice.
+        // A third halfedge may have been found later, or the edge may have been linked twice.
         let twin = &*self.twin;
         self.inconsistent.retain(|&h| twin[h as usize] < DEGENERATE);
         self.inconsistent.par_sort_unstable();

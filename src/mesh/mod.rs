@@ -1,4 +1,4 @@
-//! Triangle meshes: indices, positions and attributes, and who is whose neighbour.
+//! Triangle meshes: positions, triangles, attributes, connectivity, and the rings round a rim.
 
 #[cfg_attr(
     not(feature = "io"),
@@ -9,6 +9,7 @@ pub(crate) mod connectivity;
 #[cfg(test)]
 mod connectivity_oracle;
 pub(crate) mod defects;
+pub(crate) mod halfedge;
 mod linking;
 pub(crate) mod pairing;
 mod rim_table;

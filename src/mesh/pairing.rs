@@ -1,13 +1,13 @@
-//! Pairs the halfedges of the triangles of one patch or of the surroundings of one hole, whose vertices are numbered
-//! from zero; [`linking`](super::linking) does so for whole meshes.
+//! Pairs the halfedges of a small set of triangles: those of a patch, or of the surroundings of a hole. Their vertices
+//! are numbered from zero. For whole meshes, [`linking`](super::linking) does this.
 
-use super::connectivity::{BOUNDARY, NON_MANIFOLD, origin, target};
+use super::halfedge::{BOUNDARY, NON_MANIFOLD, origin, target};
 
 /// For each halfedge the other one of its edge, [`BOUNDARY`] where the edge has one triangle, or [`NON_MANIFOLD`]
 /// where it has three or more. All vertices are below `vertex_count`.
 ///
 /// Halfedge `3 * f + k` runs from corner `k` of triangle `f` to corner `(k + 1) % 3`. The two halfedges of a pair may
-/// run the same way; where a triangle names a vertex twice they are both its own.
+/// have the same direction. In a triangle that names a vertex twice, both halfedges of a pair may belong to it.
 ///
 /// # Complexity
 /// Linear.
@@ -32,7 +32,7 @@ pub(crate) fn pair_halfedges(triangles: &[[u32; 3]], vertex_count: usize) -> Vec
     twins
 }
 
-/// The items by a key below `key_count`, those of one key in the order in which they come.
+/// Sorts the items by a key below `key_count`. Items with one key keep their order.
 fn sorted_by(
     key_count: usize,
     items: impl Iterator<Item = u32> + Clone,

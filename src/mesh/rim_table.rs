@@ -1,9 +1,9 @@
-//! The halfedges that leave the vertices of the boundary.
+//! A table of the halfedges that leave boundary vertices.
 //!
-//! A bit per vertex says whether it is on the boundary; counting the bits before it gives its place in
-//! compact arrays, so that the table costs little where the boundary is short.
+//! One bit for each vertex says whether it is on the boundary. The number of set bits before it is its index in compact
+//! arrays. So the table is small if the boundary is short.
 
-use super::connectivity::{BOUNDARY, Outgoing, is_degenerate, origin, target};
+use super::halfedge::{BOUNDARY, Outgoing, is_degenerate, origin, target};
 use super::survey::FACE_CHUNK;
 use rayon::prelude::*;
 
@@ -17,13 +17,13 @@ pub(super) struct RimTable {
     words: Vec<u64>,
     /// Number of vertices on the boundary before each word.
     ranks: Vec<u32>,
-    /// Where the halfedges of each vertex on the boundary start, and after the last their number.
+    /// The start of each boundary vertex's halfedges, and at the end their number.
     first: Vec<u32>,
     outgoing: Vec<Outgoing>,
 }
 
 impl RimTable {
-    /// Makes the table from the boundary halfedges, in any order; also returns these in ascending order.
+    /// Makes the table from the boundary halfedges, in any order. Also returns them in ascending order.
     ///
     /// One pass over the triangles, unless there is no boundary.
     pub(super) fn build(
@@ -78,9 +78,9 @@ impl RimTable {
         (table, boundary)
     }
 
-    /// Sorts the halfedges by the vertex that they leave: counts, then places them.
+    /// Sorts the halfedges by the vertices that they leave, by counting.
     fn fill<I: Iterator<Item = u32>>(&mut self, triangles: &[[u32; 3]], corners: impl Fn() -> I) {
-        // Counted two places ahead: placing moves each start to the next one.
+        // Counts are stored two places ahead, because placing the halfedges moves each start to the next one.
         for h in corners() {
             if let Some(rank) = self.rank(origin(triangles, h)) {
                 self.first[rank + 2] += 1;
@@ -108,7 +108,7 @@ impl RimTable {
         self.first.pop();
     }
 
-    /// Place of `vertex` among the vertices on the boundary.
+    /// Index of `vertex` among the boundary vertices.
     fn rank(&self, vertex: u32) -> Option<usize> {
         let (word, bit) = (vertex as usize / WORD, vertex as usize % WORD);
         let bits = *self.words.get(word)?;
@@ -116,7 +116,7 @@ impl RimTable {
         (bits >> bit & 1 == 1).then(|| (self.ranks[word] + before) as usize)
     }
 
-    /// The halfedges that leave `vertex`, ascending; none when it is not on the boundary.
+    /// The halfedges that leave `vertex`, in ascending order; none when it is not on the boundary.
     pub(super) fn outgoing(&self, vertex: u32) -> &[Outgoing] {
         match self.rank(vertex) {
             Some(rank) => &self.outgoing[self.first[rank] as usize..self.first[rank + 1] as usize],

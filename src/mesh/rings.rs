@@ -1,22 +1,22 @@
-//! Walking round a vertex, and the rings of triangles next to a rim.
+//! Walks round a vertex, and collects the rings of triangles round a rim.
 
-use super::connectivity::{DEGENERATE, next, origin, previous};
+use super::halfedge::{DEGENERATE, next, origin, previous};
 use super::trimesh::TriMesh;
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::segments::Segments;
 
-/// How far the rings round a rim go.
+/// The extent of the rings round a rim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reach {
-    /// Rings of triangles that are collected whole.
+    /// Number of complete rings of triangles.
     pub(crate) rings: u32,
-    /// Further rings have the triangles that touch a vertex nearer to the rim than this, in units of the mesh.
+    /// In addition, triangles with a vertex nearer to the rim than this, in units of the mesh.
     pub(crate) distance: f64,
 }
 
 impl Reach {
-    /// So many rings, and no more.
+    /// The given number of rings, and no more.
     pub(crate) fn rings(rings: u32) -> Self {
         Self {
             rings,
@@ -25,20 +25,19 @@ impl Reach {
     }
 }
 
-/// How a walk round a vertex came to its end.
+/// The end of a walk round a vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FanEnd {
-    /// At this halfedge, which has no neighbour.
+    /// The walk ended at this halfedge, which has no neighbor.
     At(u32),
-    /// Back where it began.
+    /// The walk came back to its start.
     Closed,
 }
 
-/// Walks through the triangles round `vertex`, from the triangle of `halfedge` away from the edge of
-/// `halfedge`, which must touch `vertex`, and calls `visit` for each triangle.
+/// Walks through the triangles round `vertex` and calls `visit` for each. The walk starts in the triangle of `halfedge`
+/// and leads away from its edge, which must have `vertex` as an end.
 ///
-/// Works whatever the orientation of the triangles is. The walk ends at an edge with one triangle or
-/// with more than two.
+/// Triangles may be oriented inconsistently. The walk ends at an edge with one triangle or with more than two.
 pub(crate) fn walk_fan(
     mesh: &TriMesh,
     vertex: u32,
@@ -65,25 +64,25 @@ pub(crate) fn walk_fan(
     }
 }
 
-/// Triangles and vertices near a rim, ring by ring, found through shared edges only: another sheet that
-/// passes close by in space is not part of it.
+/// Triangles and vertices near a rim, ring by ring. They are found through shared edges only, so a different sheet
+/// that is near in space is not included.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rings {
-    /// Triangles with their ring: ring `r` has the triangles that touch a vertex of level `r` and none
-    /// of a lower level. Ordered by ring, then by triangle.
+    /// Triangles with their rings, sorted by ring, then by triangle. The ring of a triangle is the lowest level of its
+    /// vertices.
     pub(crate) faces: Vec<(u32, u32)>,
-    /// Vertices with their level: 0 on the rim, else the ring that the vertex was met in, plus one.
-    /// Ordered by vertex.
+    /// Vertices with their levels, sorted by vertex. The level is 0 on the rim; elsewhere it is the ring in which the
+    /// vertex was found, plus one.
     pub(crate) levels: Vec<(u32, u32)>,
 }
 
-/// Collects rings of triangles round the rim given by its boundary halfedges, as far as `reach` says.
+/// Collects the rings of triangles round a rim within `reach`. The rim is given by its boundary halfedges.
 ///
-/// Cost follows the number of triangles collected, but for sorting them and, where the distance counts, a
+/// The cost is proportional to the number of collected triangles, plus sorting them and, if `reach` has a distance, a
 /// search among the rim's edges for each vertex.
 ///
 /// # Errors
-/// `Cancelled` when the job is stopped.
+/// `Cancelled` when the job is cancelled.
 pub(crate) fn collect_rings(
     mesh: &TriMesh,
     rim_halfedges: &[u32],
@@ -91,8 +90,8 @@ pub(crate) fn collect_rings(
     job: &Job<'_>,
 ) -> Result<Rings> {
     let triangles = mesh.triangles();
-    // A vertex with the halfedge through which it was met, so that the walk stays on its sheet. Each rim
-    // vertex is the head of one rim halfedge.
+    // Vertices with the halfedges through which they were found, so that the walk stays on its sheet. Each rim vertex
+    // is the head of one rim halfedge.
     let mut frontier: Vec<(u32, u32)> = rim_halfedges
         .iter()
         .map(|&h| (origin(triangles, next(h)), h))
@@ -129,7 +128,7 @@ pub(crate) fn collect_rings(
         let mut met = Vec::new();
         for &(vertex, halfedge) in &frontier {
             if let FanEnd::At(_) = walk_fan(mesh, vertex, halfedge, |face| met.push(face)) {
-                // The fan is open: walk the other way round as well.
+                // The fan is open, so the walk is done in the other direction, too.
                 let twin = mesh.connectivity().twin(halfedge);
                 if twin < DEGENERATE {
                     walk_fan(mesh, vertex, twin, |face| met.push(face));

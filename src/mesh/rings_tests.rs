@@ -1,6 +1,6 @@
-//! Rings of triangles round a rim against a breadth-first search over the whole mesh.
+//! Tests: compares the rings of triangles round a rim with a breadth-first search over the whole mesh.
 
-use super::connectivity::DEGENERATE;
+use super::halfedge::DEGENERATE;
 use super::rings::{FanEnd, Reach, Rings, collect_rings, walk_fan};
 use super::trimesh::TriMesh;
 use crate::boundary::loops::BoundaryLoops;

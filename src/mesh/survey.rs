@@ -1,17 +1,17 @@
-//! The first look at the triangles of a mesh: are the indices valid, which vertices are used, which
-//! triangles are degenerate, and which vertices each run of triangles has.
+//! The first pass over the triangles of a mesh. It checks the indices, records degenerate triangles and unused
+//! vertices, and finds the range of vertices of each chunk of triangles. Linear, in parallel.
 
-use super::connectivity::is_degenerate;
 use super::defects::MeshDefects;
+use super::halfedge::is_degenerate;
 use crate::error::{Error, ErrorKind, Result};
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Triangles looked at by one task.
+/// Number of triangles in one chunk, which is one task.
 pub(super) const FACE_CHUNK: usize = 1 << 14;
 
-/// What one run of [`FACE_CHUNK`] triangles is made of.
+/// The findings on one chunk of [`FACE_CHUNK`] triangles.
 #[derive(Debug)]
 pub(super) struct FaceChunk {
     /// Lowest to highest vertex.
@@ -20,8 +20,7 @@ pub(super) struct FaceChunk {
     pub(super) degenerate: Vec<u32>,
 }
 
-/// Looks at all triangles, chunk by chunk in parallel, and records the degenerate ones and the vertices
-/// that none uses.
+/// Examines all triangles, and records the degenerate ones and the unused vertices in `defects`.
 ///
 /// # Errors
 /// [`ErrorKind::InvalidInput`] for the first triangle with a vertex that is not below `vertex_count`.
@@ -63,7 +62,7 @@ fn look(
     for (face, t) in (first_face..).zip(faces) {
         for &v in t {
             let used = used.get(v as usize).ok_or(face)?;
-            // Read first: threads that write the same cache lines would wait for each other.
+            // The value is read first, because threads that write to one cache line wait for each other.
             if !used.load(Ordering::Relaxed) {
                 used.store(true, Ordering::Relaxed);
             }

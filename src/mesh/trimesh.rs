@@ -1,4 +1,4 @@
-//! A triangle mesh that was validated when it was built.
+//! [`TriMesh`], a triangle mesh with attributes and connectivity. It is validated when it is built, and only grows.
 
 use super::attributes::{AttributeValues, Attributes};
 use super::connectivity::{Connectivity, ROOM};
@@ -7,18 +7,18 @@ use crate::error::{Error, Result};
 use crate::math::Vec3;
 use rayon::prelude::*;
 
-/// Corners are numbered from four times the triangle on; the last numbers mark links that are no halfedge.
+/// Upper bound on the triangles. Keys of halfedges are about four times the triangle's number and must fit 32 bits, and
+/// the highest numbers are marks.
 const MOST_TRIANGLES: usize = (1 << 30) - 2;
-/// Vertices checked by one task.
+/// Number of vertices that one task checks.
 const VERTEX_CHUNK: usize = 1 << 14;
 
 /// A triangle mesh with attributes, built and validated once.
 ///
-/// Non-manifold edges, isolated vertices, duplicate and degenerate triangles, inconsistent orientation
-/// and several components are all allowed: they are kept as they are and listed by
-/// [`TriMesh::defects`]. Vertices and triangles are never changed, moved or reordered; filling holes
-/// only appends.
-#[derive(Clone, Debug)]
+/// Non-manifold edges, isolated vertices, duplicate and degenerate triangles, inconsistent orientation and several
+/// components are allowed. They are not repaired; [`TriMesh::defects`] lists the defects. Vertices and triangles are
+/// never changed, moved or reordered. Filling a hole only appends.
+#[derive(Clone, Debug, Default)]
 pub struct TriMesh {
     positions: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
@@ -146,8 +146,8 @@ impl TriMesh {
 
     /// Appends vertices and triangles; the caller extends the attributes by as many entries.
     ///
-    /// `twins` pairs the halfedges of the triangles. Cost follows what is appended. See [`Connectivity::append`] for
-    /// what is required.
+    /// `twins` pairs the halfedges of the triangles. See [`Connectivity::append`] for the requirements. The cost is
+    /// proportional to the number of appended elements.
     pub(crate) fn append(
         &mut self,
         points: &[[f64; 3]],
@@ -165,10 +165,11 @@ impl TriMesh {
         Ok(())
     }
 
-    /// Takes back what was appended after the mesh had this many vertices and triangles; the edges that it
-    /// closed are open again.
+    /// Removes the vertices and triangles that were appended after the mesh had these numbers of them. The edges that
+    /// they closed are open again.
     ///
-    /// Both must be numbers that the mesh had at one time after it was built. Cost follows what is removed.
+    /// The mesh must have had these numbers at one time after it was built. The cost is proportional to the number of
+    /// removed elements.
     pub(crate) fn truncate(&mut self, vertices: usize, triangles: usize) {
         self.connectivity.truncate(&self.triangles, triangles);
         self.positions.truncate(vertices);

@@ -24,15 +24,15 @@ pub(super) const CENTROID: MethodSpec = MethodSpec {
 /// [`crate::ErrorKind::Topology`] for a rim with islands, [`crate::ErrorKind::Limit`] when no new vertex is allowed.
 fn make(task: &Task<'_>) -> Result<PatchSurface> {
     let hole = task.hole;
-    let (polygon, count) = (&hole.polygon, hole.points.len());
+    let (polygon, count) = (&hole.polygon, hole.rim().len());
     if polygon.len() != count {
         return Err(Error::topology("a fan closes no hole with islands"));
     }
     if task.options.refinement.max_vertices == 0 {
         return Err(Error::limit("no new vertex is allowed"));
     }
-    let centroid = hole.points.iter().sum::<Vec3>() / count as f64;
-    let mut points = hole.points.clone();
+    let centroid = hole.rim().iter().sum::<Vec3>() / count as f64;
+    let mut points = hole.rim().to_vec();
     points.push(centroid);
     let triangles = (0..count)
         .map(|i| [polygon[i], polygon[(i + 1) % count], count as u32])

@@ -1,6 +1,6 @@
-//! Which method to use, and the options of each: what users choose.
+//! The choices of users: the method, and the options of each method.
 
-use crate::error::{Error, ErrorKind};
+use crate::error::Error;
 use crate::options::entry::options;
 use std::fmt;
 use std::str::FromStr;
@@ -34,7 +34,7 @@ macro_rules! declare {
         }
 
         options! {
-            /// The options of each method; those that methods share are those of the first one that has them.
+            /// The options of each method. Options that several methods share stand in the group of the first of them.
             pub struct MethodOptions {
             }
             groups {
@@ -65,7 +65,7 @@ impl FromStr for Method {
                 "unknown method '{name}'; the methods are {}",
                 names.join(", ")
             );
-            Error::new(ErrorKind::InvalidInput, message)
+            Error::invalid(message)
         })
     }
 }

@@ -1,9 +1,10 @@
-//! The methods: each makes a patch from the shape of a hole, whatever happens to the patch afterwards.
+//! The methods. Each one makes a patch from the shape of a hole.
 //!
-//! A method is its file or folder here and its line in the list below. The file has a [`MethodSpec`], which says all
-//! that the rest of the library knows of the method; `docs/methods/adding.md` shows how to add one.
+//! A method has a file or folder here and a line in the list below. Its file has a [`MethodSpec`], which is all that
+//! the rest of the library knows of the method. `docs/methods/adding.md` shows how to add one.
 
-/// All methods, in the order in which they are listed everywhere, as `module (group, options) { summary Method = SPEC }`.
+/// All methods, in the order in which they are listed everywhere, as `module (group, options) { summary Method = SPEC
+/// }`.
 ///
 /// Calls the macro `$expand` with the list.
 macro_rules! for_each_method {

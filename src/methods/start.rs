@@ -1,6 +1,10 @@
-//! The patch that most methods start from: the rim triangulated, refined, and taut enough to be refined well.
+//! The start patch of most methods: a triangulation of the rim, refined to the density of the rim.
 //!
-//! Based on: G. Barequet, M. Sharir, "Filling gaps in the boundary of a polyhedron", CAGD 12(2), 1995;
+//! The rim is triangulated without new vertices. This patch is refined coarsely, faired, and refined again. Fairing in
+//! between gives it a smooth shape, on which refinement makes regular triangles. The start patch is made once for each
+//! hole and shared by all methods that are tried.
+//!
+//! Sources: G. Barequet, M. Sharir, "Filling gaps in the boundary of a polyhedron", CAGD 12(2), 1995;
 //! P. Liepa, "Filling holes in meshes", SGP 2003.
 
 use super::task::Task;
@@ -12,17 +16,18 @@ use crate::patch::PatchSurface;
 use crate::refine::{self, RefineOptions, RefineReport, grading, rim_sizes};
 use crate::triangulate::{HolePolygon, TriangulationOptions, triangulate};
 
-/// Edge lengths of the first, coarse patch over those of the final one.
+/// Target edge length of the coarse patch, divided by that of the final one.
 const COARSENING: f64 = 2.0;
 
-/// Polygon vertices that ear clipping leaves to the exhaustive search, and the largest rim searched whole. Few are
-/// enough, since flips and fairing make up for what the search would find.
+/// Number of rim vertices that ear clipping leaves to the exhaustive search. A small number is enough, because flips
+/// and fairing make up for the difference.
 const START_EAR_REMAINDER: usize = 16;
+/// Upper bound on the rim edges up to which the whole rim is triangulated by exhaustive search.
 const START_EXACT_LIMIT: usize = 24;
 
-/// Relaxations of the coarse patch, which is only a start, and of the final one: a third hardly improves the
-/// angles.
+/// Relaxations of the coarse patch. It is only a start and needs none.
 const COARSE_RELAXATIONS: usize = 0;
+/// Relaxations of the final patch. A third one hardly improves the angles.
 const FINE_RELAXATIONS: usize = 2;
 
 /// A patch before it is faired, and the target edge length of each of its vertices.
@@ -42,7 +47,7 @@ pub(super) fn triangulated(
     let points: Vec<_> = hole
         .polygon
         .iter()
-        .map(|&v| hole.points[v as usize])
+        .map(|&v| hole.rim()[v as usize])
         .collect();
     let at = |position: usize| hole.polygon[position];
     let polygon = HolePolygon {
@@ -62,13 +67,13 @@ pub(super) fn triangulated(
         .iter()
         .map(|t| t.map(|position| at(position as usize)));
     Ok(PatchSurface {
-        rim_count: hole.points.len(),
-        points: hole.points.clone(),
+        rim_count: hole.rim().len(),
+        points: hole.rim().to_vec(),
         triangles: triangles.collect(),
     })
 }
 
-/// The start patch, made once for each hole.
+/// The start patch of the hole, and the target edge lengths of its vertices. It is made once for each task.
 ///
 /// # Errors
 /// Those of triangulation and refinement; [`crate::ErrorKind::Cancelled`].
@@ -111,8 +116,8 @@ pub(super) fn sizes_at_rim(task: &Task<'_>, surface: &PatchSurface) -> Result<Ve
     Ok(sizes)
 }
 
-/// Refines a patch of this hole whose vertices have moved. `sizes` holds the target edge length of each of its
-/// vertices, and does so afterwards.
+/// Refines a patch of this hole whose vertices have moved. `sizes` are the target edge lengths of its vertices; they
+/// are extended to the new vertices.
 ///
 /// # Errors
 /// Those of refinement; [`crate::ErrorKind::Cancelled`].
@@ -125,7 +130,7 @@ pub(super) fn refine_again(
     Ok(())
 }
 
-/// Refines a patch of this hole; its vertices are relaxed `relaxations` times at the end.
+/// Refines a patch of this hole with the options of the user, and relaxes its vertices `relaxations` times at the end.
 ///
 /// # Errors
 /// Those of refinement; [`crate::ErrorKind::Cancelled`].

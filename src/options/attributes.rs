@@ -1,4 +1,4 @@
-//! How the attributes of the new vertices are made.
+//! The options for the attributes of new vertices.
 
 use super::entry::{Choice, Value, options};
 use crate::methods::method::Method;

@@ -1,5 +1,5 @@
-//! Options that can be set by name: one declaration makes the field, its default, its setter, its range check, its
-//! help and its text form.
+//! Options that can be set by name. One declaration makes the field, its default, its setter, its range check, its help
+//! and its text form.
 //!
 //! ```text
 //! options! {
@@ -14,19 +14,19 @@
 //! gives the public field `density`, the setter `RefinementOptions::density(self, f64)`, and an [`Entry`] with the name
 //! `density`. A struct that holds this one as a group `refine` has the entry `refine.density`.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use std::fmt;
 use std::ops::RangeInclusive;
 
-/// The type of an option: how it is read, written and checked.
+/// The type of an option, with functions to read, write and check a value.
 pub(crate) trait Value: Sized + Clone + 'static {
-    /// What restricts the values besides their type.
+    /// The restrictions on values besides their type.
     type Limits: 'static;
 
-    /// Reads a value; `None` when it is none or not within the limits.
+    /// Reads a value; `None` when the text is no value or the value is not within the limits.
     fn read(text: &str, limits: &Self::Limits) -> Option<Self>;
 
-    /// The text that [`read`](Self::read) takes.
+    /// Writes a value as a text for [`read`](Self::read).
     fn write(&self, limits: &Self::Limits) -> String;
 
     /// Whether the value is within the limits.
@@ -88,7 +88,7 @@ impl Value for bool {
     }
 }
 
-/// A value or the word that stands for none.
+/// A value, or a word that stands for `None`.
 impl<T: Value> Value for Option<T> {
     /// The word, and the limits of the value.
     type Limits = (&'static str, T::Limits);
@@ -114,7 +114,7 @@ impl<T: Value> Value for Option<T> {
     }
 }
 
-/// A value out of a few that have names.
+/// A type with a few values that have names.
 pub(crate) trait Choice: Copy + PartialEq + 'static {
     /// The values, in the order in which they are listed.
     fn all() -> Vec<Self>;
@@ -148,7 +148,7 @@ impl<T: Choice> Value for T {
     }
 }
 
-/// Sets an option from a text; false when the text is not allowed.
+/// Sets an option from a text. Returns false when the text is not allowed.
 type Setter<O> = dyn Fn(&mut O, &str) -> bool + Send + Sync;
 
 /// An option of the options `O` that can be set by its name.
@@ -168,7 +168,7 @@ impl<O> Entry<O> {
         &self.name
     }
 
-    /// What it does, with its unit, in one line.
+    /// The help text: what the option does, with its unit, in one line.
     #[must_use]
     pub fn help(&self) -> &'static str {
         self.help
@@ -180,7 +180,7 @@ impl<O> Entry<O> {
         &self.allowed
     }
 
-    /// The value that `options` has, in the form that [`set`](Self::set) takes.
+    /// The present value in `options`, as a text for [`set`](Self::set).
     #[must_use]
     pub fn value(&self, options: &O) -> String {
         (self.write)(options)
@@ -189,7 +189,7 @@ impl<O> Entry<O> {
     /// Sets the option.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] for a value that is not allowed. The options are then unchanged.
+    /// [`crate::ErrorKind::InvalidInput`] for a value that is not allowed. The options are then unchanged.
     pub fn set(&self, options: &mut O, value: &str) -> Result<()> {
         if (self.read)(options, value) {
             Ok(())
@@ -198,7 +198,7 @@ impl<O> Entry<O> {
         }
     }
 
-    /// Checks that the value that `options` has is allowed.
+    /// Checks that the present value in `options` is allowed.
     pub(crate) fn check(&self, options: &O) -> Result<()> {
         if (self.is_within)(options) {
             Ok(())
@@ -215,13 +215,10 @@ impl<O> Entry<O> {
     }
 
     fn refusal(&self, value: &str) -> Error {
-        Error::new(
-            ErrorKind::InvalidInput,
-            format!(
-                "{} cannot be '{value}': it takes {}",
-                self.name, self.allowed
-            ),
-        )
+        Error::invalid(format!(
+            "{} cannot be '{value}': it takes {}",
+            self.name, self.allowed
+        ))
     }
 }
 
@@ -250,7 +247,7 @@ impl<O: 'static> Entry<O> {
         }
     }
 
-    /// The same entry of options `P` that hold these as the group `group`; without a name they are no group.
+    /// The same entry for options `P` that contain these options as the group `group`. An empty name makes no group.
     pub(crate) fn within<P: 'static>(
         self,
         group: &str,
@@ -291,8 +288,8 @@ pub(crate) trait Options: Sized + 'static {
 
 /// Declares a struct of options; see the head of this file.
 ///
-/// A field with `in` and its limits has an entry, whose help is the first line of the field's documentation. After the
-/// struct may stand `groups`: structs of options, and the names that precede their entries; an empty name adds none.
+/// A field with `in` and limits has an entry. Its help is the first line of the field's documentation. `groups` after
+/// the struct lists structs of options with the prefix of their entries' names; an empty prefix adds nothing.
 macro_rules! options {
     (
         $(#[$about:meta])*

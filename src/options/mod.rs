@@ -1,11 +1,11 @@
-//! What users choose for a fill.
+//! [`FillOptions`]: everything that users can choose for filling holes.
 
 pub(crate) mod attributes;
 pub(crate) mod entry;
 
 pub use attributes::{AttributeOptions, FilledAttributes, Interpolator};
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::methods::method::{Method, MethodOptions};
 use entry::{Entry, Options, options};
 use std::sync::LazyLock;
@@ -37,7 +37,7 @@ options! {
         join_islands: bool = true, in ();
         /// Seconds after which holes that are not finished are given up
         ///
-        /// Such holes fail with [`ErrorKind::Limit`] and are as they were. Which holes are finished in time depends on
+        /// Such holes fail with [`crate::ErrorKind::Limit`] and are as they were. Which holes are finished in time depends on
         /// the machine; a patch that is finished is the same as without a limit.
         time_budget: Option<f64> = None, in ("none", 0.0..=1e9);
     }
@@ -77,7 +77,7 @@ static PARAMETERS: LazyLock<Vec<Parameter>> = LazyLock::new(|| {
 });
 
 impl FillOptions {
-    /// Every option that [`FillOptions::set`] knows, each method's together.
+    /// All options that [`FillOptions::set`] knows, grouped by method.
     pub fn parameters() -> impl Iterator<Item = &'static Parameter> {
         PARAMETERS.iter()
     }
@@ -91,18 +91,15 @@ impl FillOptions {
     /// Sets the option `name` to `value`.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] for an unknown name (the message lists the known ones) or a value that
+    /// [`crate::ErrorKind::InvalidInput`] for an unknown name (the message lists the known ones) or a value that
     /// is not allowed (the message says which are). The options are then unchanged.
     pub fn set(&mut self, name: &str, value: &str) -> Result<()> {
         let parameter = Self::parameter(name).ok_or_else(|| {
             let names: Vec<&str> = Self::parameters().map(Parameter::name).collect();
-            Error::new(
-                ErrorKind::InvalidInput,
-                format!(
-                    "unknown parameter '{name}'; the parameters are {}",
-                    names.join(", ")
-                ),
-            )
+            Error::invalid(format!(
+                "unknown parameter '{name}'; the parameters are {}",
+                names.join(", ")
+            ))
         })?;
         parameter.set(self, value)
     }
@@ -110,7 +107,7 @@ impl FillOptions {
     /// Checks that every option is in its range, however it was set.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] for the first one that is not, as [`FillOptions::set`] would say it.
+    /// [`ErrorKind::InvalidInput`] for the first option out of its range, with the message of [`FillOptions::set`].
     pub(crate) fn check(&self) -> Result<()> {
         Self::parameters().try_for_each(|parameter| parameter.check(self))
     }
@@ -119,6 +116,7 @@ impl FillOptions {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::ErrorKind;
 
     #[test]
     fn every_parameter_takes_its_own_default_back() {

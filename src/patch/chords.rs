@@ -3,12 +3,12 @@
 //!
 //! `O(n log n)` for `n` triangles.
 
-use super::HoleShape;
 use super::mesh::{Halfedge, PatchMesh};
+use crate::hole::Hole;
 use crate::math::Vec3;
 
 /// The chords of `mesh` that the mesh round `hole` has, smaller end first, in the order of their half-edges.
-pub(crate) fn joined_chords(mesh: &PatchMesh, hole: &HoleShape) -> Vec<(u32, u32)> {
+pub(crate) fn joined_chords(mesh: &PatchMesh, hole: &Hole) -> Vec<(u32, u32)> {
     let ends = |h: Halfedge| {
         let (a, b) = (mesh.origin(h), mesh.target(h));
         (a.min(b), a.max(b))
@@ -43,7 +43,7 @@ pub(crate) fn split_middle(mesh: &mut PatchMesh, points: &mut Vec<Vec3>, h: Half
 }
 
 /// Splits in the middle every chord of `mesh` that the mesh round `hole` has, triangle after triangle.
-pub(crate) fn split_joined_chords(mesh: &mut PatchMesh, points: &mut Vec<Vec3>, hole: &HoleShape) {
+pub(crate) fn split_joined_chords(mesh: &mut PatchMesh, points: &mut Vec<Vec3>, hole: &Hole) {
     let mut t = 0;
     while t < mesh.triangles().len() as u32 {
         let chord = (3 * t..3 * t + 3).find_map(|h| {

@@ -9,8 +9,8 @@
 //! Building takes `O(n log n)` at worst; splits and flips are `O(1)`; the edge test walks
 //! round an interior end, `O(valence)`, or else round both ends in step, `O(smaller valence)`.
 
-use crate::error::{Error, ErrorKind, Result};
-use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD};
+use crate::error::{Error, Result};
+use crate::mesh::halfedge::{BOUNDARY, NON_MANIFOLD};
 use crate::mesh::pairing::pair_halfedges;
 
 /// A half-edge: three times its triangle plus its corner.
@@ -61,20 +61,14 @@ impl PatchMesh {
         rim_count: usize,
     ) -> Result<Self> {
         if rim_count > vertex_count || vertex_count.max(3 * triangles.len()) >= RIM as usize {
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                "patch counts are out of range",
-            ));
+            return Err(Error::invalid("patch counts are out of range"));
         }
         if triangles
             .iter()
             .flatten()
             .any(|&v| v as usize >= vertex_count)
         {
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                "patch triangle names no vertex",
-            ));
+            return Err(Error::invalid("patch triangle names no vertex"));
         }
         if let Some(t) = triangles
             .iter()

@@ -1,14 +1,14 @@
 //! The point of a triangle closest to a given point.
 //!
-//! The foot of the perpendicular when it falls inside, else the best of the three edges. Triangles
-//! too thin to have a trustworthy normal are treated as their edges, so that no input, however
-//! degenerate, gives anything but a point of the triangle.
+//! It is the foot of the perpendicular if that lies inside, otherwise the closest point of the three edges. A triangle
+//! that is too thin for an accurate normal is treated as its edges, so the result is a point of the triangle for every
+//! input.
 
 use crate::math::segments::closest_on_segment;
 use crate::math::{Vec3, cross_normal};
 
-/// Twice the area over the squared longest edge below which a triangle counts as its edges: the
-/// direction of the normal is then lost in the rounding of the cross product (2^-52 per term).
+/// A triangle is treated as its edges if twice its area, divided by the square of its longest edge, is below this. The
+/// direction of its normal is then lost in rounding errors of the cross product (2^-52 for each term).
 const FLAT: f64 = 1e-13;
 
 /// The point of the triangle closest to `p`.

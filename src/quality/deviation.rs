@@ -1,22 +1,22 @@
-//! Deviation between two surfaces: distances both ways, normals, and the APE and MPE of the papers.
+//! Measures the deviation between two surfaces: distances in both directions, angles between normals, and the error
+//! measures APE and MPE of papers.
 //!
-//! Each surface is sampled densely, in proportion to area: the samples divide its total area into
-//! equal shares, and their places within the triangles follow the R2 sequence, so the result has no
-//! random part. Every sample and every vertex is measured to the closest point of the other
-//! surface.
+//! Each surface is sampled densely, in proportion to area. The positions of samples in the triangles follow the R2
+//! sequence, so the result is not random. For each sample and each vertex, the distance to the closest point of the
+//! other surface is measured.
 //!
-//! APE and MPE are based on: W.-C. Xie, X.-F. Zou, A triangulation-based hole patching method using
-//! differential evolution, Computer-Aided Design 45(12), 2013, eq. 17.
-//! Sequence: M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018.
+//! Sources: W.-C. Xie, X.-F. Zou, A triangulation-based hole patching method using differential evolution,
+//! Computer-Aided Design 45(12), 2013, eq. 17, for APE and MPE; M. Roberts, The Unreasonable Effectiveness of
+//! Quasirandom Sequences, 2018, for the sequence.
 //!
-//! Complexity: O((n + s) log n) for n triangles and s samples, in parallel. Not guaranteed: the
-//! maximum is that over samples and vertices, a lower bound of the Hausdorff distance.
+//! Complexity: O((n + s) log n) for n triangles and s samples, in parallel. Not guaranteed: the exact Hausdorff
+//! distance. The maximum over samples and vertices is a lower bound of it.
 
 use super::{
     Surface, quantile,
     spatial::{FaceIndex, Nearest},
 };
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
 use rayon::prelude::*;
@@ -87,7 +87,7 @@ pub struct Deviation {
 /// For the papers' figures `a` is the filled mesh and `b` the original.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidInput`] when a surface has no triangle, a triangle names a position that does
+/// [`crate::ErrorKind::InvalidInput`] when a surface has no triangle, a triangle names a position that does
 /// not exist, or a triangle's coordinate is not finite.
 pub fn compare(
     a_positions: &[[f64; 3]],
@@ -102,10 +102,9 @@ pub fn compare(
     for (name, positions, triangles) in surfaces {
         let is_missing = |v: &u32| *v as usize >= positions.len();
         if let Some(face) = triangles.iter().position(|t| t.iter().any(is_missing)) {
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                format!("triangle {face} of the {name} surface names a vertex that does not exist"),
-            ));
+            return Err(Error::invalid(format!(
+                "triangle {face} of the {name} surface names a vertex that does not exist"
+            )));
         }
     }
     compare_surfaces(
@@ -124,10 +123,9 @@ pub fn compare(
 fn compare_surfaces(a: Surface<'_>, b: Surface<'_>) -> Result<Deviation> {
     for (name, surface) in [("first", a), ("second", b)] {
         if surface.triangles.is_empty() {
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                format!("the {name} surface has no triangle to compare"),
-            ));
+            return Err(Error::invalid(format!(
+                "the {name} surface has no triangle to compare"
+            )));
         }
         let is_finite = |v: &u32| surface.points[*v as usize].iter().all(|x| x.is_finite());
         if let Some(face) = surface
@@ -135,12 +133,9 @@ fn compare_surfaces(a: Surface<'_>, b: Surface<'_>) -> Result<Deviation> {
             .iter()
             .position(|t| !t.iter().all(is_finite))
         {
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                format!(
-                    "triangle {face} of the {name} surface has a coordinate that is not finite"
-                ),
-            ));
+            return Err(Error::invalid(format!(
+                "triangle {face} of the {name} surface has a coordinate that is not finite"
+            )));
         }
     }
     let index_a = FaceIndex::build(a, &Job::unlimited())?;
@@ -158,7 +153,7 @@ fn compare_surfaces(a: Surface<'_>, b: Surface<'_>) -> Result<Deviation> {
     })
 }
 
-/// What was found from one surface to another.
+/// The measurements from one surface to another.
 struct Measured {
     distances: OneWay,
     /// Face of the sample and nearest face of the other surface.
@@ -169,12 +164,9 @@ struct Measured {
 
 fn measure(from: Surface<'_>, to: Surface<'_>, index: &FaceIndex) -> Result<Measured> {
     let nearest = |p: &Vec3| -> Result<Nearest> {
-        index.nearest(to, p).ok_or_else(|| {
-            Error::new(
-                ErrorKind::InvalidInput,
-                "the coordinates are too large to compare",
-            )
-        })
+        index
+            .nearest(to, p)
+            .ok_or_else(|| Error::invalid("the coordinates are too large to compare"))
     };
     let samples = sample(from);
     let hits: Vec<(u32, Nearest)> = samples
@@ -244,7 +236,7 @@ fn sample(surface: Surface<'_>) -> Vec<(u32, Vec3)> {
             }
             let [a, b, c] = surface.corners(face);
             let [r, s] = R2.map(|step| (k as f64 * step).fract());
-            // The square root makes the density even between the corner `a` and its far edge.
+            // The square root makes the density uniform between the corner `a` and the edge opposite to it.
             let root = r.sqrt();
             (
                 face as u32,
@@ -279,7 +271,7 @@ fn normal_angles(a: Surface<'_>, b: Surface<'_>, samples: &[(u32, u32)]) -> Opti
 fn point_errors(a: Surface<'_>, b: Surface<'_>, distances: &[(u32, f64)]) -> Option<PointErrors> {
     let single = is_single_precision(a) || is_single_precision(b);
     let key = |p: &Vec3| -> [u64; 3] {
-        // Adding zero makes both zeros one.
+        // Adding zero turns -0.0 into 0.0.
         std::array::from_fn(|k| {
             let x = if single { f64::from(p[k] as f32) } else { p[k] };
             (x + 0.0).to_bits()
@@ -313,6 +305,7 @@ fn is_single_precision(surface: Surface<'_>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::ErrorKind;
 
     /// A square of side `side` at height `z`, in 2 n^2 triangles facing up.
     fn square(n: u32, side: f64, z: f64) -> (Vec<Vec3>, Vec<[u32; 3]>) {

@@ -1,40 +1,37 @@
-//! Improper intersection of two triangles: what two faces of one sound surface never do.
+//! Tests two triangles for an improper intersection, that is, one that two triangles of a sound surface never have.
 //!
 //! | corners in common | improper when |
 //! | --- | --- |
 //! | none | an edge of one crosses the other |
 //! | one | the edge opposite to it crosses the other triangle |
 //! | two | the faces fold onto each other (dihedral angle below [`FOLD`]) |
-//! | three | always: the face is there twice |
+//! | three | always: it is the same face twice |
 //!
-//! Triangles in one plane are improper when they overlap with positive area, however many corners
-//! they share. Touching is never improper: a corner on a face, a corner on an edge, faces resting
-//! on each other. Corners are in common when their positions are equal, so equal vertex ids and
-//! vertices that were split at the same place count alike.
+//! Two triangles in one plane intersect improperly if they overlap with positive area, whatever corners they share.
+//! Touching is not improper: a corner on a face, a corner on an edge, two faces that only touch. Corners are in common
+//! if their positions are equal; vertex ids do not count.
 //!
-//! Crossings are decided by exact predicates. Based on: J. R. Shewchuk, Adaptive Precision
-//! Floating-Point Arithmetic and Fast Robust Geometric Predicates, Discrete & Computational
-//! Geometry 18, 1997 (crate `robust`); exact unless a product under- or overflows. Whether two
-//! triangles lie in one plane, and overlap there, has a tolerance: points computed to lie in a
-//! plane never do exactly.
+//! Crossings are decided by exact predicates: J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast
+//! Robust Geometric Predicates, Discrete & Computational Geometry 18, 1997 (crate `robust`). They are exact unless a
+//! product under- or overflows. So neighbors in a flat patch whose planes differ by 1e-9 of their extent are decided
+//! correctly; tests that round small volumes to zero report some of them. Whether two triangles lie in one plane is
+//! decided with a tolerance, because computed points never lie in a plane exactly.
 //!
-//! Neighbours in a flat patch whose planes differ by 1e-9 of their extent are thus told apart as exactly as any
-//! others; tests that snap small volumes to zero call some of them crossing.
-//!
-//! Not guaranteed: triangles without area (see [`has_area`]) cross nothing.
+//! Not guaranteed: intersections of triangles without area (see [`has_area`]) are not reported.
 
 use crate::math::{Vec3, cross_normal, unit};
 use robust::{Coord3D, orient3d};
 
-/// Distance, relative to the larger triangle, within which two triangles lie in one plane. Far
-/// above the rounding of a computed point (2^-52) and far below any modelled gap.
+/// Two triangles lie in one plane if their distance from it is below this share of the larger triangle. It is far above
+/// the rounding error of a computed point (2^-52) and far below any modeled gap.
 pub(super) const COPLANAR: f64 = 1e-9;
 
-/// Double area over the squared extent below which the normal of a triangle is mere rounding.
+/// A triangle has no area if twice its area, divided by the square of the extent, is below this. Its normal is then
+/// only rounding error.
 const NO_AREA: f64 = 1e-14;
 
-/// Angle between two faces at their common edge, in radians, below which they are folded onto
-/// each other: 0.05 degrees.
+/// Two faces are folded onto each other if the angle between them at their common edge is below this, in radians. It is
+/// 0.05 degrees.
 const FOLD: f64 = 0.05 * std::f64::consts::PI / 180.0;
 
 /// Whether two triangles of a surface intersect in more than the corners and edges they share.
@@ -78,7 +75,7 @@ fn has_repeated_corner([a, b, c]: &[Vec3; 3]) -> bool {
     a == b || b == c || c == a
 }
 
-/// Whether the double area is more than rounding in a scene of this extent.
+/// Whether a triangle with this normal (of length twice the area) has an area, in a scene of this extent.
 fn has_area(normal: &Vec3, extent: f64) -> bool {
     normal.norm() > NO_AREA * extent * extent
 }
@@ -117,14 +114,14 @@ fn sides([a, b, c]: &[Vec3; 3], of: &[Vec3; 3]) -> [i8; 3] {
     of.each_ref().map(|p| side(a, b, c, p))
 }
 
-/// Whether a triangle with these sides keeps to one side of the plane and touches it in a corner
-/// at most, so that nothing can cross.
+/// Whether a triangle stays on one side of a plane and touches it in one corner at most, so that it cannot cross.
+/// `sides` are those of its corners.
 fn keeps_off(sides: [i8; 3]) -> bool {
     let sum: i8 = sides.iter().sum();
     sum.abs() >= 2
 }
 
-/// Crossing of triangles without a common corner and not in one plane.
+/// Whether two triangles cross that have no common corner and do not lie in one plane.
 fn cross_apart(t: &[Vec3; 3], u: &[Vec3; 3]) -> bool {
     let u_sides = sides(t, u);
     if keeps_off(u_sides) {
@@ -143,7 +140,7 @@ fn cross_apart(t: &[Vec3; 3], u: &[Vec3; 3]) -> bool {
     any_edge(t, t_sides, u) || any_edge(u, u_sides, t)
 }
 
-/// Crossing of triangles that both start at their one common corner and are not in one plane.
+/// Whether two triangles cross that have one common corner, their first, and do not lie in one plane.
 fn cross_beyond_corner(t: &[Vec3; 3], u: &[Vec3; 3]) -> bool {
     let opposite_crosses = |t: &[Vec3; 3], u: &[Vec3; 3]| {
         let [a, b, c] = u;
@@ -152,7 +149,7 @@ fn cross_beyond_corner(t: &[Vec3; 3], u: &[Vec3; 3]) -> bool {
     opposite_crosses(t, u) || opposite_crosses(u, t)
 }
 
-/// Whether the line from `p` to `q` meets the triangle other than in a corner.
+/// Whether the segment from `p` to `q` meets the triangle in a point that is not a corner.
 fn line_meets(p: &Vec3, q: &Vec3, [a, b, c]: &[Vec3; 3]) -> bool {
     let around = [side(p, q, a, b), side(p, q, b, c), side(p, q, c, a)];
     let positive = around.iter().filter(|&&s| s > 0).count();
@@ -160,7 +157,7 @@ fn line_meets(p: &Vec3, q: &Vec3, [a, b, c]: &[Vec3; 3]) -> bool {
     positive.min(negative) == 0 && positive.max(negative) >= 2
 }
 
-/// Whether triangles that both start opposite to their common edge lie nearly on each other.
+/// Whether two triangles with a common edge are folded onto each other. Both start at the corner opposite to that edge.
 fn is_fold(t: &[Vec3; 3], u: &[Vec3; 3]) -> bool {
     let [tip, from, to] = t;
     let along = unit(to - from);
@@ -172,8 +169,8 @@ fn is_fold(t: &[Vec3; 3], u: &[Vec3; 3]) -> bool {
     h.cross(&k).norm().atan2(h.dot(&k)) < FOLD
 }
 
-/// Whether triangles in the plane across `normal` overlap with positive area, by the separating
-/// axis theorem; overlaps thinner than [`COPLANAR`] are touching.
+/// Whether two triangles in the plane perpendicular to `normal` overlap with positive area, by the separating axis
+/// theorem. An overlap thinner than [`COPLANAR`] counts as touching.
 fn overlap_in_plane(t: &[Vec3; 3], u: &[Vec3; 3], normal: &Vec3) -> bool {
     let dropped = normal.iamax();
     let (x, y) = ((dropped + 1) % 3, (dropped + 2) % 3);

@@ -1,7 +1,6 @@
-//! Judges surfaces: shape, topology, deviation, self-intersection.
+//! Measures the quality of surfaces: shape of triangles, topology, deviation, self-intersection.
 //!
-//! Everything here takes plain slices, so that any layer and any test can ask; nothing here changes
-//! what it judges.
+//! All functions take plain slices, so that any layer and any test can call them. They change nothing.
 
 pub(crate) mod closest;
 pub mod deviation;
@@ -35,7 +34,7 @@ impl Surface<'_> {
 }
 
 /// The value below which the share `q` of the ascending `sorted` values lies, interpolated linearly
-/// between neighbours; `None` when there are no values.
+/// between neighbors; `None` when there are no values.
 fn quantile(sorted: &[f64], q: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     let position = q.clamp(0.0, 1.0) * last as f64;
@@ -50,7 +49,7 @@ mod tests {
     use super::quantile;
 
     #[test]
-    fn quantiles_interpolate_between_neighbours() {
+    fn quantiles_interpolate_between_neighbors() {
         assert_eq!(quantile(&[], 0.5), None);
         assert_eq!(quantile(&[3.0], 0.95), Some(3.0));
         assert_eq!(quantile(&[0.0, 1.0, 4.0], 0.75), Some(2.5));

@@ -1,8 +1,8 @@
-//! Triangles that lie beside each other in one plane but for rounding, judged by exact integers.
+//! Tests on nearly coplanar triangles, compared with exact integer arithmetic.
 //!
-//! Two faces of one flat patch may be so thin that a test with a tolerance takes them for crossing. Here the
-//! definition of an improper intersection is applied to such pairs without any rounding: coordinates are whole
-//! multiples of 2^-53 or coarser, so that every volume is a sum of whole numbers.
+//! Two faces of one flat patch may be so thin that a test with a tolerance reports a crossing. Here the definition of
+//! an improper intersection is applied to such pairs without rounding: coordinates are multiples of 2^-53, so every
+//! volume is an integer in that unit.
 
 use super::intersect::intersects_improperly;
 use crate::math::Vec3;
@@ -144,7 +144,7 @@ fn exact_volumes_have_their_signs() {
 }
 
 #[test]
-fn neighbours_in_a_flat_patch_do_not_intersect() {
+fn neighbors_in_a_flat_patch_do_not_intersect() {
     for (t, u) in PAIRS {
         assert!(!intersects_exactly(t, u), "{t:?} {u:?}");
         let (t, u) = (t.map(Vec3::from), u.map(Vec3::from));

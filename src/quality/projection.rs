@@ -1,26 +1,30 @@
-//! A quick proof that a patch does not intersect itself: seen along some direction, it covers nothing twice.
+//! A quick proof that a patch does not intersect itself: along some direction, its projection covers no point twice.
 //!
-//! Based on: P. Volino, N. Magnenat-Thalmann, "Efficient self-collision detection on smoothly discretized
-//! surface animations using geometrical shape regularity", Computer Graphics Forum 13(3), 1994. Their criterion:
-//! all normals of the surface make an acute angle with one direction, and its outline does not cross itself when
-//! seen along it. Why it suffices: all triangles are seen from the same side, so each point of the view is covered
-//! as often as the outline winds round it, which is once at most. Nothing is assumed about the topology of the
-//! patch but that its open edges make up one closed outline.
+//! Criterion: all normals make an acute angle with one direction, and the outline does not cross itself when it is
+//! projected along that direction. This is sufficient. All triangles are seen from the same side, so the projection
+//! covers a point as often as the outline winds round it, and a simple outline winds round a point at most once. The
+//! open edges of the patch must form one closed outline.
 //!
-//! Complexity: O(m log m) at worst for m triangles, O(k²) at worst for k edges of the outline. What is not proved may
-//! still be sound: saddles, patches that bend by more than a right angle, several outlines.
+//! Source: P. Volino, N. Magnenat-Thalmann, "Efficient self-collision detection on smoothly discretized
+//! surface animations using geometrical shape regularity", Computer Graphics Forum 13(3), 1994.
+//!
+//! Complexity: O(m log m) at worst for m triangles, O(k²) at worst for k edges of the outline. Not guaranteed: a proof
+//! for every sound patch. There is none for strong saddles, patches that bend by more than a right angle, or several
+//! outlines.
 
 use crate::math::{Vec3, cross_normal};
-use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD, origin, target};
+use crate::mesh::halfedge::{BOUNDARY, NON_MANIFOLD, origin, target};
 
-/// Least cosine between the normals and the direction, 73 degrees: triangles seen edge-on prove nothing.
+/// Lower bound on the cosine of the angle between a normal and the direction, 73 degrees. For a triangle that is seen
+/// nearly edge-on, rounding errors would matter.
 const LEAST_COSINE: f64 = 0.3;
 
-/// Edges of the outline that come closer than this share of its extent may touch but for rounding.
+/// Lower bound on the distance between edges of the projected outline that are not neighbors, as a share of its extent.
+/// Below it they might touch, within rounding errors.
 const CLEARANCE: f64 = 1e-6;
 
-/// Whether the patch of `triangles`, with its pairs of halfedges and its positions `corners`, provably has no two
-/// triangles that intersect.
+/// Whether the criterion proves that no two triangles of the patch intersect. `twins` pairs the halfedges of
+/// `triangles`; `corners` are the positions of their corners.
 pub(super) fn covers_nothing_twice(
     triangles: &[[u32; 3]],
     twins: &[u32],
@@ -45,7 +49,7 @@ pub(super) fn covers_nothing_twice(
         && outline(triangles, twins, corners).is_some_and(|outline| is_simple(&outline, &view))
 }
 
-/// The positions along the open edges of the triangles, if these make up one closed polygon.
+/// The positions along the open edges of the triangles; `None` unless these form one closed polygon.
 fn outline(triangles: &[[u32; 3]], twins: &[u32], corners: &[[Vec3; 3]]) -> Option<Vec<Vec3>> {
     debug_assert_eq!(twins.len(), 3 * triangles.len());
     let start = |h: u32| origin(triangles, h);
@@ -75,7 +79,7 @@ fn outline(triangles: &[[u32; 3]], twins: &[u32], corners: &[[Vec3; 3]]) -> Opti
     (h == first && outline.len() == open.len()).then_some(outline)
 }
 
-/// An edge of the outline as it is seen.
+/// A projected edge of the outline.
 struct Segment {
     place: usize,
     ends: [[f64; 2]; 2],
@@ -83,9 +87,9 @@ struct Segment {
     hi: [f64; 2],
 }
 
-/// Whether the closed polygon neither crosses nor nearly touches itself when seen along the unit vector `view`.
+/// Whether the closed polygon, projected along the unit vector `view`, neither crosses nor nearly touches itself.
 fn is_simple(outline: &[Vec3], view: &Vec3) -> bool {
-    // Two directions across the view, the first along the coordinate axis that is least in line with it.
+    // Two directions perpendicular to the view. The first comes from the coordinate axis least parallel to it.
     let mut across = Vec3::zeros();
     across[view.iamin()] = 1.0;
     let x_axis = (across - view * view.dot(&across)).normalize();
@@ -122,9 +126,9 @@ fn is_simple(outline: &[Vec3], view: &Vec3) -> bool {
             .take_while(|t| t.lo[0] <= s.hi[0])
             .all(|t| {
                 let apart = (s.place + count - t.place) % count;
-                let are_neighbours = apart == 1 || apart == count - 1;
+                let are_neighbors = apart == 1 || apart == count - 1;
                 let is_beside = t.lo[1] > s.hi[1] || s.lo[1] > t.hi[1];
-                are_neighbours || is_beside || lies_beside(s, t, room) || lies_beside(t, s, room)
+                are_neighbors || is_beside || lies_beside(s, t, room) || lies_beside(t, s, room)
             })
     })
 }

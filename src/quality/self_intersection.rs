@@ -1,12 +1,14 @@
 //! Counts the improper intersections of a patch with itself and with the mesh it was made for.
 //!
-//! Small patches are swept along their longest axis; large ones get a [`BoxTree`] of their own and are
-//! searched piece by piece in parallel. The mesh is asked through its index. Most pairs with overlapping boxes are neighbours, which a [`Separator`] tells apart at once.
+//! [`intersects_improperly`] defines an improper intersection. Each pair of triangles counts once. Pairs of two mesh
+//! faces are not tested.
 //!
-//! Complexity: O(m log n + k) for m patch triangles, n mesh faces and k pairs of overlapping boxes.
-//! What counts is said in [`intersects_improperly`]. Each pair of triangles counts once; pairs
-//! within the mesh are never looked at. Not guaranteed: pairs in two different patches are found
-//! only when both are passed as one.
+//! Small patches are swept along their longest axis. Large ones get a [`BoxTree`] of their own and are searched in
+//! pieces, in parallel. Mesh faces are found through the index of the mesh. Most pairs with overlapping boxes are
+//! neighbors; a [`Separator`] rejects them quickly.
+//!
+//! Complexity: O(m log n + k) for m patch triangles, n mesh faces and k pairs of overlapping boxes. Not guaranteed:
+//! pairs in two different patches are found only if both patches are passed as one.
 
 use super::{
     Surface,
@@ -22,21 +24,22 @@ use crate::math::aabb::Aabb;
 use crate::math::box_tree::BoxTree;
 use rayon::prelude::*;
 
-/// Patch triangles searched as one piece of parallel work; up to this many are swept, which beats building
-/// a tree.
+/// Number of patch triangles in one piece of parallel work. A patch of at most this size is swept, which is faster than
+/// building a tree.
 const PIECE: usize = 256;
 
-/// A sweep passes every mesh face near the patch; beyond this many for each of the patch's triangles, the
-/// tree is searched for one triangle after the other instead.
+/// Upper bound on the mesh faces near the patch, for each patch triangle, for which a sweep is used. With more, the
+/// index is searched for each triangle.
 const NEAR_PER_TRIANGLE: usize = 8;
 
-/// Patch triangles next to each other in the sweep that are passed over together.
+/// Number of successive patch triangles in the sweep that can be skipped together.
 const CHUNK: usize = 16;
 
-/// Patches of more triangles are not worth a proof, whose cost grows with the square of their outline at worst.
+/// Upper bound on the triangles of a patch for which a proof is tried. Its cost can grow with the square of the
+/// outline.
 const PROVABLE: usize = 4096;
 
-/// Pairs that are reported by name.
+/// Upper bound on the pairs that are listed.
 const EXAMPLES: usize = 8;
 
 /// The triangles of one or more patches in the vertex ids of the mesh they will be appended to.
@@ -100,7 +103,7 @@ impl SelfIntersections {
 /// indexes.
 ///
 /// # Errors
-/// `Cancelled` when the job is stopped.
+/// `Cancelled` when the job is cancelled.
 pub(crate) fn count(
     mesh: Surface<'_>,
     faces: &FaceIndex,
@@ -131,7 +134,7 @@ pub(crate) fn count(
     }
 }
 
-/// The box of a triangle with room for those that lie in its plane but for rounding.
+/// The box of a triangle, grown by a margin so that it overlaps the boxes of triangles nearly in its plane.
 fn grown_box(triangle: &[Vec3; 3]) -> Aabb {
     let Aabb { lo, hi } = Aabb::around(triangle);
     let room = Vec3::repeat(COPLANAR * (hi - lo).max());
@@ -182,7 +185,7 @@ impl TriangleSearch<'_> {
         let mut order: Vec<(f64, usize)> = self.boxes.iter().map(|b| b.lo[axis]).zip(0..).collect();
         order.sort_unstable_by(|(a, i), (b, j)| a.total_cmp(b).then(i.cmp(j)));
         let swept: Vec<(Aabb, usize)> = order.iter().map(|&(_, i)| (self.boxes[i], i)).collect();
-        // Of a patch that is sound by itself few triangles come near the mesh.
+        // In a patch without intersections of its own, only few triangles are near the mesh.
         let mut separators = vec![None; self.boxes.len()];
         let mut pairs = Vec::new();
         let unproved = if is_sound { &[] } else { &swept[..] };
@@ -255,7 +258,7 @@ impl TriangleSearch<'_> {
             let mut found = Vec::new();
             for i in piece {
                 let separator = &Separator::new(self.triangles[i], self.corners[i]);
-                // Beside long thin triangles each one may take milliseconds.
+                // Next to long thin triangles, one search may take milliseconds.
                 job.ask()?;
                 if let Some(own) = &own {
                     own.overlapping(&self.boxes[i], &mut found);
@@ -267,7 +270,7 @@ impl TriangleSearch<'_> {
             }
             Ok(tally(pairs))
         };
-        // A pool of one thread would only add the way to it.
+        // With one thread, a pool would only cost time.
         let tallies: Vec<_> = if rayon::current_num_threads() == 1 {
             pieces.map(search).collect::<Result<_>>()?
         } else {
@@ -293,7 +296,7 @@ fn tally(mut pairs: Vec<Pair>) -> SelfIntersections {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::connectivity::BOUNDARY;
+    use crate::mesh::halfedge::BOUNDARY;
     use crate::mesh::pairing::pair_halfedges;
     use proptest::prelude::*;
 

@@ -1,25 +1,24 @@
 //! Quick proofs that two triangles of a surface do not intersect improperly.
 //!
-//! Most triangles whose boxes overlap are neighbours that lie beside each other. A plane shows it: the
-//! plane of a triangle, or the one that stands on it along an edge. When it passes through all vertices
-//! in common and every other corner of the second triangle lies clearly beyond it, the two touch in these
-//! vertices at most, do not fold and do not overlap, whatever the tolerances of
-//! [`intersects_improperly`](super::intersect::intersects_improperly) are. Nothing is ever proved wrongly;
-//! what is not proved is decided there.
+//! Most triangles with overlapping boxes are neighbors that lie beside each other. A separating plane proves that. The
+//! planes tried are that of a triangle, and those perpendicular to it along its edges. If such a plane passes through
+//! all common vertices, and every other corner of the second triangle lies clearly beyond it, then the triangles touch
+//! in the common vertices only. This holds for all tolerances of
+//! [`intersects_improperly`](super::intersect::intersects_improperly), which decides the pairs without a proof. A proof
+//! is never wrong.
 
 use super::intersect::{COPLANAR, extent};
 use crate::math::{Vec3, cross_normal};
 
-/// A corner is clearly beyond a plane at this share of the larger triangle. A corner that counts as in
-/// the plane of a triangle moves by less than twice [`COPLANAR`] when it is projected into that plane
-/// along a coordinate axis.
+/// Lower bound on the distance of a corner that lies clearly beyond a plane, as a share of the larger triangle. A
+/// corner that counts as coplanar moves by less than twice [`COPLANAR`] when it is projected along a coordinate axis.
 const CLEARANCE: f64 = 4.0 * COPLANAR;
 
-/// Double area over the squared extent from which a triangle's planes are known to 1e-9 and better,
-/// far within the clearance.
+/// Lower bound on twice the area of a triangle, divided by the square of the extent. Above it, the planes of the
+/// triangle have an error of at most 1e-9, far below the clearance.
 const SOUND_AREA: f64 = 1e-6;
 
-/// A plane direction, not of unit length.
+/// The normal of a plane, not of unit length.
 #[derive(Clone, Copy, Debug)]
 struct Direction {
     normal: Vec3,
@@ -42,11 +41,11 @@ pub(super) struct Separator {
     vertices: [u32; 3],
     corners: [Vec3; 3],
     extent: f64,
-    /// Across the triangle.
+    /// The normal of the triangle.
     normal: Direction,
-    /// In the triangle's plane, away from it across the edge after each corner.
+    /// For the edge after each corner, the normal of the edge in the triangle's plane, away from the triangle.
     outward: [Direction; 3],
-    /// The planes can be trusted beside triangles up to the extent whose square this is.
+    /// Square of the largest extent of another triangle for which the planes are accurate enough.
     sound_extent_sq: f64,
 }
 
@@ -80,7 +79,7 @@ impl Separator {
         if common == 3 {
             return false;
         }
-        // The lowest of the other's own corners above a plane through one of this triangle's.
+        // The smallest height of the other triangle's own corners above a plane through a corner of this one.
         let lowest = |through: usize, normal: &Vec3| {
             let height = |k: usize| match is_common[k] {
                 true => f64::INFINITY,
@@ -156,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_on_a_bumpy_sheet_are_cleared() {
+    fn neighbors_on_a_bumpy_sheet_are_cleared() {
         const N: u32 = 12;
         let at = |i: u32, j: u32| j * N + i;
         let point = |v: u32| {
@@ -173,8 +172,8 @@ mod tests {
         let clears =
             |t: &[u32; 3], u: &[u32; 3]| Separator::new(*t, t.map(point)).clears(u, &u.map(point));
         for t in &triangles {
-            let is_neighbour = |u: &&[u32; 3]| *u != t && u.iter().any(|v| t.contains(v));
-            for u in triangles.iter().filter(is_neighbour) {
+            let is_neighbor = |u: &&[u32; 3]| *u != t && u.iter().any(|v| t.contains(v));
+            for u in triangles.iter().filter(is_neighbor) {
                 assert!(clears(t, u) || clears(u, t), "{t:?} {u:?}");
             }
             assert!(!clears(t, t), "the same triangle");

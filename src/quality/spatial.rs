@@ -1,4 +1,4 @@
-//! A static spatial index over the faces of a mesh.
+//! A static spatial index over the faces of a mesh: a tree of their boxes, for searches by box and by distance.
 
 use super::{Surface, closest::closest_on_triangle};
 use crate::error::Result;
@@ -32,7 +32,7 @@ impl FaceIndex {
     /// Indexes all faces of a surface of at most `u32::MAX` faces.
     ///
     /// # Errors
-    /// `Cancelled` when the job is stopped.
+    /// `Cancelled` when the job is cancelled.
     pub(crate) fn build(surface: Surface<'_>, job: &Job<'_>) -> Result<Self> {
         let box_of = |f| Aabb::around(&surface.corners(f));
         let tree = BoxTree::build(surface.triangles.len(), box_of, job)?;

@@ -1,15 +1,15 @@
-//! Topology of a triangle list: what a patch must be before it is accepted.
+//! Examines the topology of a triangle list: counts of edges, boundary edges, components and defects. Tests use it.
 //!
-//! Works on indices alone: vertices at equal positions are different vertices.
+//! It reads indices only: vertices at equal positions are different vertices.
 //!
 //! Complexity: O(n log n) for n triangles, by sorting; memory of about 100 bytes a triangle.
 
 use rayon::prelude::*;
 
-/// What a list of triangles is, topologically.
+/// The topology of a list of triangles.
 ///
-/// Triangles that repeat an index are counted as degenerate and otherwise ignored; every other
-/// count includes duplicates.
+/// Triangles that repeat an index are counted as degenerate and otherwise ignored. All other counts include
+/// duplicates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Topology {
     /// Vertices that some triangle uses.
@@ -98,7 +98,7 @@ pub(crate) fn examine(triangles: &[[u32; 3]]) -> Topology {
         ..Topology::default()
     };
     let mut faces = DisjointSets::new(sound.len());
-    // A corner of a face joins the next face's corner at the same vertex: its classes are fans.
+    // Corners at one vertex are joined across edges. The classes are the fans.
     let mut corners = DisjointSets::new(3 * sound.len());
     for edge in sides.chunk_by(|x, y| (x.low, x.high) == (y.low, y.high)) {
         topology.edges += 1;

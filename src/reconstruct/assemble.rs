@@ -1,17 +1,17 @@
-//! The surface from the stars of all points.
+//! Assembles the surface from the triangles that the points chose.
 //!
-//! Based on M. Gopi, S. Krishnan, A fast and efficient projection based approach for surface reconstruction,
-//! International Journal of High Performance Computer Graphics, Multimedia and Visualisation 1(1), 2000: each
-//! point chooses its triangles in its tangent plane, triangles are added one at a time where they fit, and
-//! every triangle has input points as corners. There the surface grows from a seed; here the stars are made
-//! independently of each other, and triangles are added in an order that does not depend on a seed: first
-//! those that all three corners chose, then those of two, then those of one, small circles first.
+//! A triangle is a candidate if one of its corners chose it. Candidates are added one at a time, if they fit to those
+//! already added: first the candidates that all three corners chose, then those of two corners, then those of one;
+//! among these, triangles with small circumscribed circles come first. Where points disagree, small gaps remain. They
+//! are closed by adding triangles at their edges, small circles first, as long as triangles are within the size
+//! limit. Gaps of few edges are closed even where the triangles do not fit in the tangent planes. What is still open
+//! is a hole. Triangles at its rim that are too large are removed again.
 //!
-//! Where stars disagree this leaves small polygons. They are closed by growing from their edges, smallest
-//! circle first, as long as triangles stay within the limit; those of few edges also where the triangles do not
-//! fit in the tangent planes. What is open then is a hole, and triangles at its rim must be smaller.
+//! Source: M. Gopi, S. Krishnan, A fast and efficient projection based approach for surface reconstruction,
+//! International Journal of High Performance Computer Graphics, Multimedia and Visualisation 1(1), 2000. There the
+//! surface grows from a seed; here the order does not depend on a seed.
 //!
-//! Complexity: O(n k) for n points with k neighbours, O(n log n) to sort.
+//! Complexity: O(n k) for n points with k neighbors, O(n log n) to sort.
 
 use super::cloud::{Cloud, NearestPoints, for_all};
 use super::gaps;
@@ -25,28 +25,29 @@ use rayon::prelude::*;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Most neighbours that a star is made from where the nearest ones do not reach as far as the limit.
-const MOST_NEIGHBOURS: usize = 200;
+/// Upper bound on the neighbors of a star that is made again, because the nearest ones do not reach as far as the size
+/// limit.
+const MOST_NEIGHBORS: usize = 200;
 
-/// Chooses the triangles.
+/// The input of the assembly.
 pub(super) struct Assembler<'a> {
     pub(super) cloud: &'a Cloud,
-    pub(super) neighbours: &'a NearestPoints,
+    pub(super) neighbors: &'a NearestPoints,
     /// `None` for points without a normal.
     pub(super) tangents: &'a [Option<Tangent>],
-    /// The largest radius of a triangle's circle, if the caller gave it, in the cloud's unit.
+    /// Upper bound on the radius of a triangle's circumscribed circle, in the cloud's unit, if the caller gave one.
     pub(super) radius: Option<f64>,
     pub(super) job: &'a Job<'a>,
 }
 
-/// The surface, and how large its triangles could be.
+/// The surface, and the size limits of its triangles.
 pub(super) struct Assembled {
     pub(super) triangles: Vec<[u32; 3]>,
-    /// The largest radius of a triangle's circle at each point.
+    /// Upper bound on the radius of a triangle's circumscribed circle, at each point.
     pub(super) limits: Vec<f64>,
 }
 
-/// A triangle that points chose, from its lowest index on.
+/// A triangle that points chose, starting with its lowest index.
 #[derive(Clone, Copy, PartialEq)]
 struct CandidateTriangle {
     votes: u8,
@@ -68,10 +69,10 @@ impl Assembler<'_> {
     /// Makes the surface.
     ///
     /// # Errors
-    /// `Cancelled` when the caller asked to stop.
+    /// `Cancelled` when the job is cancelled.
     pub(super) fn run(&self) -> Result<Assembled> {
         let near = for_all(self.cloud.len(), self.job, |v| {
-            self.star(v, self.neighbours.of(v))
+            self.star(v, self.neighbors.of(v))
         })?;
         let limits = self.limits(&near)?;
         let stars = for_all(self.cloud.len(), self.job, |v| {
@@ -84,7 +85,7 @@ impl Assembler<'_> {
             surface.add(candidate.corners);
         }
         self.close_gaps(&mut surface, &limits)?;
-        // Before the rims are taken back, so that this starts at holes and not at what stars disagree on.
+        // Small gaps are closed first, so that triangles are removed at true holes only.
         self.close_small_holes(&mut surface, &limits);
         if self.radius.is_none() {
             surface.peel(|t| self.radius(t) - RIM_SHARE * largest_limit(&limits, t));
@@ -105,14 +106,14 @@ impl Assembler<'_> {
             let radii = sectors.map(|[a, b]| self.radius([v, a, b]));
             radii.filter(|r| r.is_finite()).collect()
         })?;
-        limits(self.cloud, self.neighbours, &radii, self.job)
+        limits(self.cloud, self.neighbors, &radii, self.job)
     }
 
     fn radius(&self, corners: [u32; 3]) -> f64 {
         circumradius(corners.map(|v| self.cloud.points[v as usize]))
     }
 
-    /// The star of `v` among `near`, without the points that face the other way.
+    /// The star of `v` among `near`, without points whose normals point to the other side.
     fn star(&self, v: u32, near: &[u32]) -> Star {
         let tangent = self.tangents[v as usize].as_ref();
         let alike = near.iter().copied().filter(|&w| {
@@ -126,10 +127,10 @@ impl Assembler<'_> {
         }
     }
 
-    /// The sectors of the star of `v` within the limit; the star is made anew among more points if those that
-    /// it was made from may have missed one.
+    /// The sectors of the star of `v` within the limit. The star is made again from more points if it may have missed
+    /// one.
     fn choice(&self, v: u32, star: &Star, limit: f64) -> Vec<[u32; 2]> {
-        let near = self.neighbours.of(v);
+        let near = self.neighbors.of(v);
         let within = |star: &Star| -> Vec<[u32; 2]> {
             let sectors = star.sectors();
             sectors
@@ -140,8 +141,8 @@ impl Assembler<'_> {
         let reached = near.last().map_or(0.0, |&w| {
             (self.cloud.points[w as usize] - self.cloud.points[v as usize]).norm()
         });
-        // A circle through the centre reaches as far as its diameter; a gap may be closed by any point within
-        // that of the limit.
+        // A circle through the center reaches as far as its diameter. A gap can be closed by any point within twice the
+        // limit.
         let largest = chosen
             .iter()
             .map(|&[a, b]| self.radius([v, a, b]))
@@ -154,14 +155,14 @@ impl Assembler<'_> {
         if needed <= reached || near.len() + 1 >= self.cloud.len() {
             return chosen;
         }
-        let wider = self.cloud.within(v, needed, MOST_NEIGHBOURS);
+        let wider = self.cloud.within(v, needed, MOST_NEIGHBORS);
         if wider.len() <= near.len() {
             return chosen;
         }
         within(&self.star(v, &wider))
     }
 
-    /// The triangles of all stars in the order in which they are tried.
+    /// The triangles of all stars, in the order in which they are tried.
     fn candidates(&self, stars: &[Vec<[u32; 2]>], limits: &[f64]) -> Vec<CandidateTriangle> {
         let mut chosen: Vec<[u32; 3]> = (0..)
             .zip(stars)
@@ -181,7 +182,7 @@ impl Assembler<'_> {
         candidates
     }
 
-    /// Closes what the stars left open as long as triangles stay within the limit.
+    /// Adds triangles at open edges as long as they are within the limit.
     fn close_gaps(&self, surface: &mut GrowingSurface, limits: &[f64]) -> Result<()> {
         let mut queue = BinaryHeap::new();
         for side in surface.boundary() {
@@ -201,7 +202,7 @@ impl Assembler<'_> {
         Ok(())
     }
 
-    /// Leaves every point one fan, and closes the holes of few edges within the limit.
+    /// Leaves one fan at each point, and closes holes of few edges with triangles within the limit.
     fn close_small_holes(&self, surface: &mut GrowingSurface, limits: &[f64]) {
         surface.separate_fans();
         let normal = |v: u32| self.tangents[v as usize].as_ref().map(|t| t.normal);
@@ -210,7 +211,7 @@ impl Assembler<'_> {
         });
     }
 
-    /// Queues the triangles that fit on the open side of a -> b.
+    /// Puts the triangles that fit at the open side of a -> b into the queue.
     fn queue_triangles(
         &self,
         surface: &GrowingSurface,
@@ -220,7 +221,7 @@ impl Assembler<'_> {
     ) {
         let mut thirds: Vec<u32> = [a, b]
             .iter()
-            .flat_map(|&v| self.neighbours.of(v))
+            .flat_map(|&v| self.neighbors.of(v))
             .copied()
             .filter(|&c| c != a && c != b && !surface.is_surrounded(c))
             .collect();
@@ -236,7 +237,7 @@ impl Assembler<'_> {
     }
 }
 
-/// A triangle that waits to be added; the smallest circle comes first.
+/// A triangle in the queue. Small circles come first.
 struct Queued {
     radius: f64,
     corners: [u32; 3],

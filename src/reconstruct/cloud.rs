@@ -1,8 +1,8 @@
-//! The distinct points of a cloud, in coordinates of its own, with their nearest neighbours.
+//! The distinct points of a cloud, in scaled coordinates, and the search for their nearest neighbors.
 //!
-//! Neighbours come from an R*-tree (the crate `rstar`), bulk loaded. Equal distances are ordered by index.
+//! Neighbors are found with a bulk-loaded R*-tree (the crate `rstar`). Points at equal distance are ordered by index.
 //!
-//! Complexity: O(n log n) to build; O(k log n) for k neighbours.
+//! Complexity: O(n log n) to build; O(k log n) for k neighbors.
 
 use crate::error::{Error, Result};
 use crate::job::Job;
@@ -13,26 +13,26 @@ use rstar::primitives::GeomWithData;
 
 type IndexedPoint = GeomWithData<[f64; 3], u32>;
 
-/// Points that one thread takes at a time.
+/// Number of points in one task of a thread.
 const GRAIN: usize = 256;
 
-/// Points at different places, numbered in the order of the caller's positions.
+/// Points at different positions, in the order of the caller.
 pub(super) struct Cloud {
-    /// Coordinates with the origin in the middle of the cloud, divided by a power of two, so that the longest
-    /// side of the bounding box is between one half and one (zero if all points coincide).
+    /// Coordinates with the origin in the middle of the cloud, scaled by a power of two so that the longest side of the
+    /// bounding box is between one half and one. It is zero if all points coincide.
     pub(super) points: Vec<Vec3>,
-    /// The caller's index of each point; ascending.
+    /// The caller's index of each point, in ascending order.
     pub(super) sources: Vec<u32>,
-    /// What a length in the caller's units is multiplied by.
+    /// Factor from the caller's units to scaled ones.
     pub(super) scale: f64,
     tree: RTree<IndexedPoint>,
 }
 
 impl Cloud {
-    /// Takes the distinct ones of `positions`; of points at one place, the first.
+    /// Takes the distinct points of `positions`: of several points at one position, the first.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`] when a coordinate is not finite, the extent overflows, or there are more
+    /// [`crate::ErrorKind::InvalidInput`] when a coordinate is not finite, the extent overflows, or there are more
     /// points than 32-bit indices can name.
     pub(super) fn new(positions: &[[f64; 3]]) -> Result<Self> {
         if positions.len() >= u32::MAX as usize {
@@ -52,7 +52,7 @@ impl Cloud {
         }
         let (middle, scale) = frame_of(positions)?;
         let local = |p: &[f64; 3]| {
-            // Adding zero makes the two zeros equal.
+            // Adding zero turns -0.0 into 0.0.
             Vec3::from_fn(|axis, _| (p[axis] - middle[axis]) * scale + 0.0)
         };
         let all: Vec<Vec3> = positions.iter().map(local).collect();
@@ -74,7 +74,7 @@ impl Cloud {
         self.points.len()
     }
 
-    /// The `count` points nearest to point `v`, itself left out, nearest first.
+    /// The `count` points nearest to point `v`, without `v`, nearest first.
     pub(super) fn nearest(&self, v: u32, count: usize) -> Vec<u32> {
         let at = self.points[v as usize];
         let found = self.tree.nearest_neighbor_iter(at.into());
@@ -82,7 +82,7 @@ impl Cloud {
         self.in_order(v, others.take(count).collect())
     }
 
-    /// The points within `radius` of point `v`, itself left out, nearest first, `most` at most.
+    /// The points within `radius` of point `v`, without `v`, nearest first, at most `most`.
     pub(super) fn within(&self, v: u32, radius: f64, most: usize) -> Vec<u32> {
         let at = self.points[v as usize];
         let found = self.tree.nearest_neighbor_iter(at.into());
@@ -92,10 +92,10 @@ impl Cloud {
         self.in_order(v, others.take(most).collect())
     }
 
-    /// The `count` nearest neighbours of every point.
+    /// The `count` nearest neighbors of every point.
     ///
     /// # Errors
-    /// [`ErrorKind::Cancelled`] when the job is stopped.
+    /// [`crate::ErrorKind::Cancelled`] when the job is cancelled.
     pub(super) fn all_nearest(&self, count: usize, job: &Job<'_>) -> Result<NearestPoints> {
         let count = count.min(self.len().saturating_sub(1));
         let lists = for_all(self.len(), job, |v| self.nearest(v, count))?;
@@ -113,23 +113,23 @@ impl Cloud {
     }
 }
 
-/// Lists of equal length, one for each point.
+/// The nearest neighbors of each point, in lists of equal length.
 pub(super) struct NearestPoints {
     count: usize,
     flat: Vec<u32>,
 }
 
 impl NearestPoints {
-    /// The neighbours of `v`, nearest first.
+    /// The neighbors of `v`, nearest first.
     pub(super) fn of(&self, v: u32) -> &[u32] {
         &self.flat[v as usize * self.count..][..self.count]
     }
 }
 
-/// `make(v)` for all `v` below `count`, in order, made in parallel.
+/// Computes `make(v)` for all `v` below `count` in parallel. Results are in order.
 ///
 /// # Errors
-/// [`ErrorKind::Cancelled`] when the job is stopped.
+/// [`crate::ErrorKind::Cancelled`] when the job is cancelled.
 pub(super) fn for_all<T: Send>(
     count: usize,
     job: &Job<'_>,
@@ -163,12 +163,12 @@ fn frame_of(positions: &[[f64; 3]]) -> Result<([f64; 3], f64)> {
         ));
     }
     let middle = [0, 1, 2].map(|k| low[k] + (high[k] - low[k]) / 2.0);
-    // Half of the exponent range at either end would make the power or its use overflow.
+    // The bounds keep the power, and products with it, from overflowing.
     let exponent = (-extent.log2().floor() - 1.0).clamp(-1020.0, 1020.0);
     Ok((middle, if extent > 0.0 { exponent.exp2() } else { 1.0 }))
 }
 
-/// The indices of the first point at each place, ascending.
+/// The indices of the first point at each position, in ascending order.
 fn first_of_each_place(points: &[Vec3]) -> Vec<u32> {
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
     let place = |v: u32| points[v as usize];

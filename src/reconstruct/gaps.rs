@@ -1,8 +1,8 @@
-//! Small holes between samples that are left when every triangle has been tried that fits in the tangent planes.
+//! Closes small holes between samples that remain after all triangles that fit in tangent planes were added.
 //!
-//! Such a hole has few edges and triangles within the limit close it, but in some corner's tangent plane they
-//! overlap their neighbours, as where noise or a crease tilts the plane. What counts here is the connectivity,
-//! and that the triangles face the same side as their corners.
+//! Such a hole has few edges, and triangles within the size limit can close it. But in the tangent plane of some corner
+//! they overlap other triangles, because noise or a crease tilts the plane. So tangent planes are not used here. The
+//! result must be a manifold, and the triangles must face the same side as the normals of their corners.
 //!
 //! Complexity: linear in the boundary.
 
@@ -10,13 +10,13 @@ use super::reach::circumradius;
 use super::surface::{GrowingSurface, rotations};
 use crate::math::{Vec3, cross_normal};
 
-/// Most edges of a hole that is closed: as many as a hole as large as the limit has in a regular mesh. Loops of
-/// more edges are not worth a try.
+/// Upper bound on the edges of a hole that is closed. In a regular mesh, a hole as large as the size limit has this
+/// number of edges.
 const MOST_EDGES: usize = 12;
 
-/// Closes the holes of few edges whose triangles have circles of at most `limit(corners)`, and face like the normals of
-/// their corners or make an acute angle with the normals of all triangles beside them: estimated normals may be wrong
-/// at folds. All of a hole or nothing. Every point must have one fan.
+/// Closes holes of few edges, each completely or not at all. The circumscribed circles of new triangles are at most
+/// `limit(corners)`. A new triangle must face the same side as the normals of its corners, or make an acute angle with
+/// all triangles beside it, because estimated normals may be wrong at folds. Every point must have one fan.
 pub(super) fn close_small_holes(
     surface: &mut GrowingSurface,
     points: &[Vec3],
@@ -46,7 +46,7 @@ pub(super) fn close_small_holes(
     }
 }
 
-/// The boundary loops of few edges, as the triangles beside them run.
+/// The boundary loops of few edges, in the direction of the triangles beside them.
 fn small_loops(surface: &GrowingSurface) -> Vec<Vec<u32>> {
     let sides = surface.boundary();
     let next = |v: u32| {
@@ -60,7 +60,7 @@ fn small_loops(surface: &GrowingSurface) -> Vec<Vec<u32>> {
         let mut vertices = vec![start];
         let mut at = next(start)?;
         while at != start {
-            // Each loop is found from its lowest vertex.
+            // Each loop is listed once, from its lowest vertex.
             if at < start || vertices.len() == MOST_EDGES {
                 return None;
             }
@@ -72,10 +72,11 @@ fn small_loops(surface: &GrowingSurface) -> Vec<Vec<u32>> {
     sides.iter().filter_map(|side| trace(side[0])).collect()
 }
 
-/// Triangulates a loop from its best ears on; `cost` refuses triangles or orders them, given what is there already.
+/// Triangulates a loop by ear clipping, cheapest ear first. `cost` gives the cost of a triangle on the present
+/// surface, or refuses it.
 ///
 /// # Errors
-/// The triangles that were added before none was left that fits.
+/// The triangles that were already added, when no ear fits.
 fn clip_ears(
     surface: &mut GrowingSurface,
     hole: &[u32],
@@ -88,7 +89,7 @@ fn clip_ears(
         let ears = (0..count).filter_map(|k| {
             let [a, b, c] = [0, 1, 2].map(|j| rest[(k + j) % count]);
             let is_joined = count > 3 && (surface.has_side(a, c) || surface.has_side(c, a));
-            // Against the direction of the sides.
+            // In the opposite direction of the loop's sides.
             let ear = [c, b, a];
             let is_free = !is_joined && surface.connects(ear);
             let cost = if is_free { cost(surface, ear) } else { None };

@@ -1,21 +1,21 @@
-//! A mesh from points: the start of hole filling when there is no mesh yet.
+//! Makes a mesh from points, so that holes of a point cloud can be filled.
 //!
-//! Every triangle has input points as corners, and the surface ends where there are no samples: what the
-//! scanner missed stays open, for hole filling. The steps, a file each:
+//! All corners of triangles are input points. The surface ends where there are no samples, so the gaps of a scan become
+//! holes of the mesh. The steps, with their files:
 //!
-//! 1. `cloud`: distinct points and their nearest neighbours;
-//! 2. `normals`, `orientation`: the tangent plane of each point, with consistent sides;
-//! 3. `star`, in the plane of `tangent`: the triangles that each point chooses;
-//! 4. `reach`: how large a triangle may be;
-//! 5. `assemble` on a growing `surface`, with `gaps`: the triangles that fit together;
-//! 6. `outward`: which side is outside.
+//! 1. `cloud`: find the distinct points and their nearest neighbors.
+//! 2. `normals`, `orientation`: estimate the normal of each point, and orient the normals consistently.
+//! 3. `star`, with `tangent`: for each point, choose triangles in its tangent plane.
+//! 4. `reach`: limit the size of triangles.
+//! 5. `assemble`, with `surface` and `gaps`: take the triangles that fit together.
+//! 6. `outward`: decide which side is outside.
 //!
-//! Based on Gopi & Krishnan 2000, as J. Wang & M. Oliveira, Filling holes on locally smooth surfaces
-//! reconstructed from point clouds, Image and Vision Computing 25(1), 2007, section 4.1 ask for it, with the
-//! stars of Gopi, Krishnan & Silva 2000; see `docs/methods/points.md`.
+//! Sources: Gopi & Krishnan 2000, which J. Wang & M. Oliveira, Filling holes on locally smooth surfaces
+//! reconstructed from point clouds, Image and Vision Computing 25(1), 2007, section 4.1 use, with the stars of Gopi,
+//! Krishnan & Silva 2000; see `docs/methods/points.md`.
 //!
-//! Not guaranteed: that surfaces closer to each other than a few samples are told apart, that triangles which
-//! share no corner do not intersect, that the result is what the points were sampled from.
+//! Cost: see [`mesh_from_points`]. Not guaranteed: that surfaces are separated whose distance is only a few samples;
+//! that triangles without a common corner do not intersect; that the mesh has the topology of the original surface.
 
 mod assemble;
 mod cloud;
@@ -30,7 +30,7 @@ mod tangent;
 #[cfg(test)]
 mod tests;
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::fill::progress::{ProgressCallback, Watch};
 use crate::job::Job;
 use crate::math::plane::principal_spreads;
@@ -41,12 +41,12 @@ use assemble::Assembler;
 use cloud::Cloud;
 use tangent::Tangent;
 
-/// Fewer different points than this make no surface.
+/// Lower bound on the number of different points.
 const FEWEST_POINTS: usize = 4;
-/// Spread across over spread along below which all points together count as a line.
+/// All points together lie on a line if their second largest spread, divided by the largest, is below this.
 const LINE_SPREAD: f64 = 1e-9;
-/// NearestPoints that a star is made from, by default; their number and range in [`PointOptions::neighbours`].
-const NEIGHBOURS: usize = 24;
+/// Default of [`PointOptions::neighbours`].
+const NEIGHBORS: usize = 24;
 
 /// Points to make a mesh from.
 #[derive(Clone, Debug, Default)]
@@ -56,7 +56,7 @@ pub struct PointCloud {
     /// Normals that point outward, of any length, one per point. A normal that is zero or not finite is
     /// estimated, and takes the side of those around it.
     pub normals: Option<Vec<[f64; 3]>>,
-    /// What the vertices of the mesh carry on.
+    /// Attributes of the points, which become those of the vertices.
     pub attributes: Attributes,
 }
 
@@ -78,7 +78,7 @@ impl PointCloud {
 pub struct PointOptions {
     /// The largest radius of the circle through the corners of a triangle, in units of the positions; holes
     /// that such a circle passes through stay open. `None` (the default) takes 3 times the median of the
-    /// neighbourhood, see `docs/methods/points.md`.
+    /// neighborhood, see `docs/methods/points.md`.
     pub radius: Option<f64>,
     /// How many of the nearest points each point chooses its triangles from, from 6 to 200; default 24.
     pub neighbours: usize,
@@ -88,7 +88,7 @@ impl Default for PointOptions {
     fn default() -> Self {
         Self {
             radius: None,
-            neighbours: NEIGHBOURS,
+            neighbours: NEIGHBORS,
         }
     }
 }
@@ -112,26 +112,26 @@ impl PointOptions {
     }
 }
 
-/// What became of the points.
+/// The report on a mesh that was made from points.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct PointReport {
-    /// Points of the input, which are the vertices of the mesh.
+    /// Number of input points, which are the vertices of the mesh.
     pub points: usize,
     /// Points that a triangle uses.
     pub used: usize,
-    /// Points at the place of an earlier one; no triangle uses them.
+    /// Points at the position of an earlier point; no triangle uses them.
     pub duplicates: usize,
     /// Other points that no triangle uses.
     pub unused: usize,
-    /// Triangles.
+    /// Number of triangles.
     pub triangles: usize,
-    /// Pieces of surface that share no vertex.
+    /// Number of pieces of surface that share no vertex.
     pub pieces: usize,
-    /// Normals that were estimated, of the points that are not duplicates.
+    /// Number of normals that were estimated, without those of duplicates.
     pub estimated_normals: usize,
-    /// The largest radius of a triangle's circle that was allowed, in units of the positions: the smallest,
-    /// the median and the largest over the points.
+    /// The upper bound on the radius of a triangle's circumscribed circle, in units of the positions: its minimum,
+    /// median and maximum over the points.
     pub radius: [f64; 3],
 }
 
@@ -139,7 +139,7 @@ pub struct PointReport {
 ///
 /// The vertices are the points, all of them, in their order, with the bits of their positions and attributes;
 /// points that no triangle uses stay as isolated vertices. No edge has more than two triangles, no vertex more
-/// than one fan, and neighbouring triangles run along their common edge in opposite directions. Triangles are
+/// than one fan, and neighboring triangles run along their common edge in opposite directions. Triangles are
 /// in ascending order of their lowest vertex. Holes stay open.
 ///
 /// With normals, triangles face where these point. Without, each piece faces away from its middle; a flat
@@ -149,12 +149,12 @@ pub struct PointReport {
 /// `progress` is called about every 10 milliseconds, with no holes, and can cancel the work.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidInput`] for a position that is not finite, normals or attributes of another length than
-/// the positions, fewer than 4 points, options out of range; [`ErrorKind::Geometry`] for fewer than 4 different
-/// points, points on a line, and when no triangle can be made; [`ErrorKind::Cancelled`] when stopped.
+/// [`crate::ErrorKind::InvalidInput`] for a position that is not finite, normals or attributes of another length than
+/// the positions, fewer than 4 points, options out of range; [`crate::ErrorKind::Geometry`] for fewer than 4 different
+/// points, points on a line, and when no triangle can be made; [`crate::ErrorKind::Cancelled`] when stopped.
 ///
 /// # Complexity
-/// O(n log n) time and O(n) memory, about 1 kB for each point, at a given number of neighbours.
+/// O(n log n) time and O(n) memory, about 1 kB for each point, at a given number of neighbors.
 pub fn mesh_from_points(
     cloud: PointCloud,
     options: &PointOptions,
@@ -181,14 +181,14 @@ pub(crate) fn reconstruct(
     let distinct = Cloud::new(&cloud.positions)?;
     check_spread(&distinct)?;
 
-    let neighbours = distinct.all_nearest(options.neighbours, job)?;
+    let neighbors = distinct.all_nearest(options.neighbours, job)?;
     let known: Vec<Option<Vec3>> = distinct
         .sources
         .iter()
         .map(|&v| known_normal(cloud.normals.as_deref(), v))
         .collect();
-    let mut normals = normals::estimate(&distinct, &neighbours, &known, job)?;
-    orientation::agree(&distinct, &neighbours, &mut normals, &known, job)?;
+    let mut normals = normals::estimate(&distinct, &neighbors, &known, job)?;
+    orientation::agree(&distinct, &neighbors, &mut normals, &known, job)?;
     let tangents: Vec<Option<Tangent>> = distinct
         .points
         .iter()
@@ -197,7 +197,7 @@ pub(crate) fn reconstruct(
         .collect();
     let assembled = Assembler {
         cloud: &distinct,
-        neighbours: &neighbours,
+        neighbors: &neighbors,
         tangents: &tangents,
         radius: options.radius.map(|r| r * distinct.scale),
         job,
@@ -208,9 +208,9 @@ pub(crate) fn reconstruct(
     if triangles.is_empty() {
         return Err(geometry(match options.radius {
             Some(radius) => {
-                format!("no three neighbouring points fit on a circle of radius {radius}")
+                format!("no three neighboring points fit on a circle of radius {radius}")
             }
-            None => "no three neighbouring points make a triangle".to_owned(),
+            None => "no three neighboring points make a triangle".to_owned(),
         }));
     }
     if known.iter().all(Option::is_none) {
@@ -265,7 +265,7 @@ fn check_spread(cloud: &Cloud) -> Result<()> {
 /// The unit normal that the caller gave for point `v`.
 fn known_normal(normals: Option<&[[f64; 3]]>, v: u32) -> Option<Vec3> {
     let normal = Vec3::from(normals?[v as usize]);
-    // Divided by its largest component nothing overflows.
+    // Dividing by the largest component avoids overflow.
     let largest = normal.amax();
     (largest > 0.0 && largest.is_finite() && normal.iter().all(|c| c.is_finite()))
         .then(|| unit(normal / largest))
@@ -298,5 +298,5 @@ fn range(values: Vec<f64>) -> [f64; 3] {
 }
 
 fn geometry(message: String) -> Error {
-    Error::new(ErrorKind::Geometry, message)
+    Error::geometry(message)
 }

@@ -1,11 +1,13 @@
-//! Normals of points, as lines without a sign: the direction in which the nearest points spread least.
+//! Estimates normals of points, without a sign: the direction in which the nearest points spread least.
 //!
-//! Based on H. Hoppe, T. DeRose, T. Duchamp, J. McDonald, W. Stuetzle, Surface reconstruction from
-//! unorganized points, SIGGRAPH 1992, section 3.1: the eigenvector of the smallest eigenvalue of the
-//! covariance of the neighbours. Where the nearest points lie along a line, as on a scan line, they say
-//! nothing about the plane, and more of them are taken.
+//! It is the eigenvector of the smallest eigenvalue of the covariance of the neighbors. If the nearest points lie on a
+//! line, as on a scan line, they determine no plane, and more points are taken.
 //!
-//! Complexity: O(k) per point for k neighbours. Across a crease the normal is a mean of both sides.
+//! Source: H. Hoppe, T. DeRose, T. Duchamp, J. McDonald, W. Stuetzle, Surface reconstruction from unorganized points,
+//! SIGGRAPH 1992, section 3.1.
+//!
+//! Complexity: O(k) for each point with k neighbors. Not guaranteed: exact normals at a crease, where the estimate is a
+//! mean of both sides.
 
 use super::cloud::{Cloud, NearestPoints, for_all};
 use crate::error::Result;
@@ -13,20 +15,22 @@ use crate::job::Job;
 use crate::math::Vec3;
 use nalgebra::{Matrix3, SymmetricEigen};
 
-/// NearestPoints that determine a normal.
-pub(super) const NORMAL_NEIGHBOURS: usize = 12;
-/// A neighbourhood counts as a line where its spread across is less than this share of that along it.
+/// Number of neighbors that determine a normal.
+pub(super) const NORMAL_NEIGHBORS: usize = 12;
+
+/// Neighbors lie on a line if their second largest spread is below this share of the largest.
 const LINE_SPREAD: f64 = 0.15;
-/// How many times as many neighbours are tried where the nearest ones are a line.
+
+/// Factors on the number of neighbors, tried in turn if the neighbors lie on a line.
 const WIDER: [usize; 2] = [2, 4];
 
-/// Unit normals: the `known` ones, else estimated, of either sign; zero where the points near are on a line.
+/// Unit normals: the `known` ones, otherwise estimated ones of either sign. Zero where the neighbors lie on a line.
 ///
 /// # Errors
-/// `Cancelled` when the job is stopped.
+/// `Cancelled` when the job is cancelled.
 pub(super) fn estimate(
     cloud: &Cloud,
-    neighbours: &NearestPoints,
+    neighbors: &NearestPoints,
     known: &[Option<Vec3>],
     job: &Job<'_>,
 ) -> Result<Vec<Vec3>> {
@@ -34,14 +38,14 @@ pub(super) fn estimate(
         if let Some(normal) = known[v as usize] {
             return normal;
         }
-        let near = neighbours.of(v);
-        let first = spread(cloud, v, &near[..near.len().min(NORMAL_NEIGHBOURS)]);
+        let near = neighbors.of(v);
+        let first = spread(cloud, v, &near[..near.len().min(NORMAL_NEIGHBORS)]);
         if !first.is_line() {
             return first.normal();
         }
         let mut best = first;
         for factor in WIDER {
-            let wider = spread(cloud, v, &cloud.nearest(v, factor * NORMAL_NEIGHBOURS));
+            let wider = spread(cloud, v, &cloud.nearest(v, factor * NORMAL_NEIGHBORS));
             best = wider;
             if !best.is_line() {
                 break;
@@ -51,7 +55,7 @@ pub(super) fn estimate(
     })
 }
 
-/// The principal directions of a neighbourhood, by ascending variance.
+/// The principal directions of a neighborhood, by ascending variance.
 struct Spread {
     variances: [f64; 3],
     across: Vec3,
@@ -78,7 +82,7 @@ fn spread(cloud: &Cloud, v: u32, near: &[u32]) -> Spread {
     let offsets = || near.iter().map(|&w| cloud.points[w as usize] - at);
     let count = near.len() as f64 + 1.0;
     let centroid = offsets().sum::<Vec3>() / count;
-    // The farthest is the last; relative to it nothing underflows.
+    // The last neighbor is the farthest. Dividing by its distance avoids underflow.
     let unit = offsets().next_back().map_or(1.0, |d| d.norm());
     let mut covariance = Matrix3::zeros();
     for d in offsets().chain(std::iter::once(Vec3::zeros())) {

@@ -1,15 +1,15 @@
-//! Signs for normals, so that neighbours agree on the side of the surface.
+//! Chooses the signs of normals so that neighbors point to the same side of the surface.
 //!
-//! Based on H. Hoppe et al., Surface reconstruction from unorganized points, SIGGRAPH 1992, section 3.3: the
-//! signs are propagated along a minimum spanning tree of the graph of nearest neighbours. How normals are
-//! compared follows H. Xie et al., Piecewise C1 continuous surface reconstruction of noisy point clouds via
-//! local implicit quadric regression, IEEE Visualization 2003: between two points on a circular arc one normal
-//! is the mirror image of the other in the plane halfway between, so that the mirror image tells the sign, also
-//! round a crease and from one side of a thin sheet to the other.
+//! Signs are propagated along a minimum spanning tree of the graph of nearest neighbors, by Kruskal's algorithm on
+//! disjoint sets whose members know their relative signs. To compare two normals, one is mirrored in the plane halfway
+//! between the points. On a circular arc the mirror image equals the other normal. So the comparison works round a
+//! crease too.
 //!
-//! The tree is Kruskal's, over sets that keep their members' signs relative to each other.
+//! Sources: H. Hoppe et al., Surface reconstruction from unorganized points, SIGGRAPH 1992, section 3.3, for the tree;
+//! H. Xie et al., Piecewise C1 continuous surface reconstruction of noisy point clouds via local implicit quadric
+//! regression, IEEE Visualization 2003, for the comparison.
 //!
-//! Complexity: O(n k log n) for k neighbours. Where surfaces nearly touch, the sign can be wrong.
+//! Complexity: O(n k log n) for k neighbors. Not guaranteed: right signs where two surfaces nearly touch.
 
 use super::cloud::{Cloud, NearestPoints};
 use crate::error::Result;
@@ -17,17 +17,17 @@ use crate::job::Job;
 use crate::math::Vec3;
 use rayon::prelude::*;
 
-/// NearestPoints that a sign is passed on to.
-const SIGN_NEIGHBOURS: usize = 10;
+/// Number of neighbors of a point in the graph.
+const SIGN_NEIGHBORS: usize = 10;
 
-/// Turns the normals that are not `known` so that neighbours agree. Known ones keep their sign and decide
-/// that of their surroundings; a part of the graph without any takes the sign of its first point.
+/// Flips normals that are not `known` so that neighbors agree. Known normals keep their sign. A component of the graph
+/// without a known normal keeps the sign of its first point.
 ///
 /// # Errors
-/// `Cancelled` when the job is stopped.
+/// `Cancelled` when the job is cancelled.
 pub(super) fn agree(
     cloud: &Cloud,
-    neighbours: &NearestPoints,
+    neighbors: &NearestPoints,
     normals: &mut [Vec3],
     known: &[Option<Vec3>],
     job: &Job<'_>,
@@ -35,10 +35,10 @@ pub(super) fn agree(
     let mut edges: Vec<Edge> = (0..cloud.len() as u32)
         .into_par_iter()
         .flat_map_iter(|v| {
-            let near = neighbours.of(v);
-            let near = &near[..near.len().min(SIGN_NEIGHBOURS)];
-            // An edge that both ends list is taken once.
-            let is_mine = move |w: u32| v < w || !listed(neighbours, w, v);
+            let near = neighbors.of(v);
+            let near = &near[..near.len().min(SIGN_NEIGHBORS)];
+            // An edge that both ends list counts once.
+            let is_mine = move |w: u32| v < w || !listed(neighbors, w, v);
             let normals = &*normals;
             near.iter()
                 .filter(move |&&w| is_mine(w))
@@ -48,7 +48,7 @@ pub(super) fn agree(
     job.ask()?;
     edges.par_sort_unstable_by(|a, b| a.cost.total_cmp(&b.cost).then(a.ends.cmp(&b.ends)));
 
-    // The last set holds all known normals: they agree by definition.
+    // All known normals are in one set, whose number is the last.
     let fixed = cloud.len() as u32;
     let mut sets = SignedSets::new(cloud.len() + 1);
     for v in (0..fixed).filter(|&v| known[v as usize].is_some()) {
@@ -59,7 +59,7 @@ pub(super) fn agree(
         sets.join(v, w, edge.is_opposite);
     }
     let [fixed_root, fixed_sign] = sets.find(fixed);
-    // The first point of a set that no known normal decides keeps its sign.
+    // In a set without a known normal, the first point keeps its sign.
     let mut first_sign = vec![None; cloud.len() + 1];
     first_sign[fixed_root as usize] = Some(fixed_sign);
     for v in 0..fixed {
@@ -72,18 +72,14 @@ pub(super) fn agree(
     Ok(())
 }
 
-fn listed(neighbours: &NearestPoints, v: u32, w: u32) -> bool {
-    neighbours
-        .of(v)
-        .iter()
-        .take(SIGN_NEIGHBOURS)
-        .any(|&x| x == w)
+fn listed(neighbors: &NearestPoints, v: u32, w: u32) -> bool {
+    neighbors.of(v).iter().take(SIGN_NEIGHBORS).any(|&x| x == w)
 }
 
 struct Edge {
     cost: f64,
     ends: [u32; 2],
-    /// Whether the two normals, as they are, point to different sides.
+    /// Whether the two present normals point to different sides.
     is_opposite: bool,
 }
 
@@ -102,7 +98,7 @@ impl Edge {
     }
 }
 
-/// Disjoint sets whose members know their sign relative to the root: 0 the same, 1 the opposite.
+/// Disjoint sets whose members know their sign relative to the root: 0 for equal, 1 for opposite.
 struct SignedSets {
     parents: Vec<[u32; 2]>,
     sizes: Vec<u32>,

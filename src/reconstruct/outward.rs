@@ -1,17 +1,17 @@
-//! Which side is outside, where no normal says so: one decision per connected piece.
+//! Decides which side of each connected piece is outside, when no normals are given.
 //!
-//! A piece is turned so that the volume between it and the centroid of its area is positive: its normals point
-//! away from the middle, whether it is closed or not. A piece without volume, as a flat one, is turned so that
-//! the largest component of its vector area is positive: a sheet over the xy-plane faces up.
+//! A piece is oriented so that the volume between it and the centroid of its area is positive: its normals point away
+//! from the middle, whether it is closed or not. A flat piece, which has no volume, is oriented so that the largest
+//! component of its vector area is positive. So a sheet over the xy-plane faces up.
 //!
 //! Complexity: linear.
 
 use crate::math::{Vec3, cross_normal};
 
-/// Volume over (area)^1.5 below which a piece counts as flat; that of a sphere is 0.094.
+/// A piece is flat if its volume, divided by (area)^1.5, is below this. A sphere has 0.094.
 const FLAT_VOLUME: f64 = 1e-6;
 
-/// Turns the triangles of each piece outward.
+/// Orients the triangles of each piece outward.
 ///
 /// Pieces are connected across vertices; each must be oriented consistently.
 pub(super) fn face_outward(points: &[Vec3], triangles: &mut [[u32; 3]]) {
@@ -28,7 +28,7 @@ pub(super) fn face_outward(points: &[Vec3], triangles: &mut [[u32; 3]]) {
     }
 }
 
-/// Sums over the triangles of a piece.
+/// Sums over the triangles of a piece, for its volume and its vector area.
 #[derive(Clone, Default)]
 struct Moments {
     area: f64,
@@ -60,7 +60,7 @@ impl Moments {
     }
 }
 
-/// The piece of each triangle, numbered in the order of their first triangles.
+/// The number of each triangle's piece. Pieces are numbered in the order of their first triangles.
 pub(super) fn pieces(vertex_count: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
     let mut parents: Vec<u32> = (0..vertex_count as u32).collect();
     for &[a, b, c] in triangles {

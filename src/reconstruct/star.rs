@@ -1,33 +1,33 @@
-//! The triangles round one point: its star in the Delaunay triangulation of its tangent plane.
+//! The star of a point: the triangles round it in the Delaunay triangulation of its tangent plane.
 //!
-//! Based on M. Gopi, S. Krishnan, C. Silva, Surface reconstruction based on lower dimensional localized
-//! Delaunay triangulation, Eurographics 2000: the neighbours of a point are turned into its tangent plane, and
-//! those that are its Delaunay neighbours there are kept. They are inserted one by one, nearest first, into a
-//! cyclic list; only the triangles at the point itself are ever looked at.
+//! The neighbors of the point are mapped to its tangent plane, and its Delaunay neighbors there are kept. They are
+//! inserted one by one, nearest first, into a cyclic list. Only triangles at the point itself are computed. Points on a
+//! common circle are always triangulated from the point with the lowest index, so that the stars of a regular grid
+//! agree.
 //!
-//! Points on a common circle are triangulated from the one with the lowest index, whichever star asks, so that
-//! stars on a grid agree.
+//! Source: M. Gopi, S. Krishnan, C. Silva, Surface reconstruction based on lower dimensional localized
+//! Delaunay triangulation, Eurographics 2000.
 //!
-//! Complexity: O(k d) for k neighbours and d Delaunay neighbours.
+//! Complexity: O(k d) for k neighbors and d Delaunay neighbors.
 
 use super::tangent::{Tangent, TangentPlace, in_circle, is_between, turn};
 use crate::math::Vec3;
 
-/// The Delaunay neighbours of a point in its tangent plane, counter-clockwise.
+/// The Delaunay neighbors of a point in its tangent plane, counter-clockwise.
 pub(super) struct Star {
-    centre: u32,
+    center: u32,
     ring: Vec<(u32, TangentPlace)>,
 }
 
 impl Star {
-    /// The star of `centre` among `neighbours`, nearest first.
+    /// The star of `center` among `neighbors`, nearest first.
     pub(super) fn new(
-        centre: u32,
+        center: u32,
         tangent: &Tangent,
-        neighbours: impl Iterator<Item = (u32, Vec3)>,
+        neighbors: impl Iterator<Item = (u32, Vec3)>,
     ) -> Self {
-        let mut star = Self::empty(centre);
-        for (index, position) in neighbours {
+        let mut star = Self::empty(center);
+        for (index, position) in neighbors {
             if let Some(place) = tangent.place(&position) {
                 star.insert(index, place);
             }
@@ -35,15 +35,15 @@ impl Star {
         star
     }
 
-    /// No triangles.
-    pub(super) fn empty(centre: u32) -> Self {
+    /// A star without triangles.
+    pub(super) fn empty(center: u32) -> Self {
         Self {
-            centre,
+            center,
             ring: Vec::new(),
         }
     }
 
-    /// The pairs of ring vertices that form a triangle with the centre, counter-clockwise.
+    /// The pairs of ring vertices that form a triangle with the center, counter-clockwise.
     pub(super) fn sectors(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
         let count = self.ring.len();
         (0..count).filter_map(move |k| {
@@ -53,7 +53,7 @@ impl Star {
         })
     }
 
-    /// Whether the triangles surround the centre.
+    /// Whether the triangles surround the center.
     pub(super) fn is_closed(&self) -> bool {
         self.ring.len() >= 3 && self.sectors().count() == self.ring.len()
     }
@@ -75,7 +75,7 @@ impl Star {
         self.drop_before(index);
     }
 
-    /// Where `place` belongs in the ring; `None` behind a neighbour in the same direction.
+    /// The position of `place` in the ring; `None` when it lies behind a neighbor in the same direction.
     fn slot(&self, place: TangentPlace) -> Option<usize> {
         let is_behind =
             |p: TangentPlace| turn(p, place) == 0.0 && p.x * place.x + p.y * place.y > 0.0;
@@ -91,14 +91,14 @@ impl Star {
             let is_inside = if turn(p, q) > 0.0 {
                 is_between(p, place, q)
             } else {
-                // A gap of half a turn or more: what is not in the sector the other way round.
+                // The gap is half a turn or more: it is the complement of the other sector.
                 !is_between(q, place, p)
             };
             is_inside.then_some(k + 1)
         })
     }
 
-    /// Whether `x` is a Delaunay neighbour of the centre although `a` and `b` are, on either side of it.
+    /// Whether `x` is a Delaunay neighbor of the center, given the neighbors `a` and `b` on its two sides.
     fn prefers(
         &self,
         x: (u32, TangentPlace),
@@ -107,14 +107,14 @@ impl Star {
     ) -> bool {
         let inside = in_circle(a.1, b.1, x.1);
         if inside == 0.0 {
-            // The diagonal from the lowest index.
-            self.centre.min(x.0) < a.0.min(b.0)
+            // On a common circle, the diagonal starts at the lowest index.
+            self.center.min(x.0) < a.0.min(b.0)
         } else {
             inside > 0.0
         }
     }
 
-    /// Drops the neighbours after `index` that it has cut off from the centre.
+    /// Removes the neighbors after `index` that are no Delaunay neighbors any more.
     fn drop_after(&mut self, index: u32) {
         while self.ring.len() >= 3 {
             let count = self.ring.len();
@@ -130,7 +130,7 @@ impl Star {
         }
     }
 
-    /// Drops the neighbours before `index` that it has cut off from the centre.
+    /// Removes the neighbors before `index` that are no Delaunay neighbors any more.
     fn drop_before(&mut self, index: u32) {
         while self.ring.len() >= 3 {
             let count = self.ring.len();
@@ -146,7 +146,7 @@ impl Star {
         }
     }
 
-    /// Whether the ring vertex `middle`, between two others, is no Delaunay neighbour of the centre any more.
+    /// Whether the ring vertex `middle`, between two others, is no Delaunay neighbor of the center any more.
     fn is_cut_off(&self, before: usize, middle: usize, after: usize) -> bool {
         let [a, x, b] = [before, middle, after].map(|k| self.ring[k]);
         turn(a.1, x.1) > 0.0

@@ -1,26 +1,26 @@
-//! The growing surface: triangles round each point, and whether another one fits.
+//! A surface that grows triangle by triangle, and the test whether another triangle fits.
 //!
-//! A triangle (p, a, b) is an arc a -> b round p, and likewise round a and b. The arcs round a point never
-//! branch and never close a circle that leaves arcs out, and their sectors in the tangent plane never overlap.
-//! So each edge has at most two triangles that run along it in opposite directions, and a point that is
-//! surrounded has one fan. A point on the boundary may have several fans until [`Surface::separate_fans`].
+//! At each of its corners, a triangle is an arc: (p, a, b) is the arc a -> b round p. The arcs round a point never
+//! branch, and never close a circle that leaves other arcs out. Their sectors in the tangent plane never overlap. So
+//! each edge has at most two triangles, in opposite directions, and a surrounded point has one fan. A point on the
+//! boundary may have several fans until [`GrowingSurface::separate_fans`].
 //!
-//! Complexity: O(d^2) per triangle for d triangles at a point.
+//! Complexity: O(d^2) for each triangle, with d triangles at a point.
 
 use super::cloud::Cloud;
 use super::tangent::{Tangent, TangentPlace, sectors_overlap, turn};
 use std::collections::{BTreeSet, BinaryHeap};
 
-/// Triangles that form an oriented surface.
+/// An oriented surface of triangles.
 pub(super) struct GrowingSurface<'a> {
     cloud: &'a Cloud,
     tangents: &'a [Option<Tangent>],
-    /// Of each point: the opposite sides of its triangles, in their direction.
+    /// For each point, the opposite sides of its triangles, in their direction.
     arcs: Vec<Vec<[u32; 2]>>,
 }
 
 impl<'a> GrowingSurface<'a> {
-    /// No triangles. A point without a tangent plane never gets one.
+    /// A surface without triangles. A point without a tangent plane never gets one.
     pub(super) fn new(cloud: &'a Cloud, tangents: &'a [Option<Tangent>]) -> Self {
         Self {
             cloud,
@@ -38,7 +38,7 @@ impl<'a> GrowingSurface<'a> {
         fits
     }
 
-    /// Adds a triangle that connects, whether or not it fits in the tangent planes.
+    /// Adds a triangle for which [`connects`](Self::connects) holds, whether it fits in the tangent planes or not.
     pub(super) fn insert(&mut self, triangle: [u32; 3]) {
         debug_assert!(self.connects(triangle));
         for [p, a, b] in rotations(triangle) {
@@ -54,7 +54,8 @@ impl<'a> GrowingSurface<'a> {
                 .all(|[p, a, b]| self.has_room(p, [a, b]))
     }
 
-    /// Whether the surface stays an oriented manifold with the triangle, fans at boundary points apart.
+    /// Whether the surface stays an oriented manifold with the triangle, except that boundary points may have several
+    /// fans.
     pub(super) fn connects(&self, triangle: [u32; 3]) -> bool {
         rotations(triangle).into_iter().all(|[p, a, b]| {
             let arcs = &self.arcs[p as usize];
@@ -96,7 +97,7 @@ impl<'a> GrowingSurface<'a> {
         Some([place(ends[0])?, place(ends[1])?])
     }
 
-    /// Whether the triangle that the directed edge a -> b belongs to is there.
+    /// Whether a triangle has the directed edge a -> b.
     pub(super) fn has_side(&self, a: u32, b: u32) -> bool {
         self.arcs[a as usize].iter().any(|arc| arc[0] == b)
     }
@@ -110,8 +111,8 @@ impl<'a> GrowingSurface<'a> {
                 .all(|arc| arcs.iter().any(|next| next[0] == arc[1]))
     }
 
-    /// Takes triangles away from the boundary inwards, as long as `excess` is positive for them, the largest
-    /// first; a triangle stays if a corner has no other. Returns how many.
+    /// Removes triangles at the boundary for which `excess` is positive, the largest excess first, and goes on
+    /// inward. A triangle stays if it is the only one at a corner. Returns the number of removed triangles.
     pub(super) fn peel(&mut self, excess: impl Fn([u32; 3]) -> f64) -> usize {
         let mut removed = 0;
         let mut queue = BinaryHeap::new();
@@ -147,13 +148,13 @@ impl<'a> GrowingSurface<'a> {
         removed
     }
 
-    /// The third corner of the triangle that the directed edge a -> b belongs to.
+    /// The third corner of the triangle with the directed edge a -> b.
     pub(super) fn third(&self, a: u32, b: u32) -> Option<u32> {
         let arcs = &self.arcs[a as usize];
         arcs.iter().find(|arc| arc[0] == b).map(|arc| arc[1])
     }
 
-    /// Leaves every point one fan, the largest, and takes the triangles of the others away. Returns how many.
+    /// Keeps the largest fan at each point, and removes the triangles of its other fans. Returns their number.
     pub(super) fn separate_fans(&mut self) -> usize {
         let mut removed = 0;
         let mut to_do: BTreeSet<u32> = (0..self.arcs.len() as u32).collect();
@@ -178,14 +179,14 @@ impl<'a> GrowingSurface<'a> {
         removed
     }
 
-    /// Takes a triangle away.
+    /// Removes a triangle.
     pub(super) fn remove(&mut self, triangle: [u32; 3]) {
         for [p, a, b] in rotations(triangle) {
             self.arcs[p as usize].retain(|&arc| arc != [a, b]);
         }
     }
 
-    /// All triangles, each from its lowest index on, in ascending order.
+    /// All triangles, each starting with its lowest index, in ascending order.
     pub(super) fn triangles(&self) -> Vec<[u32; 3]> {
         let mut triangles: Vec<[u32; 3]> = (0..)
             .zip(&self.arcs)
@@ -214,18 +215,18 @@ impl<'a> GrowingSurface<'a> {
     }
 }
 
-/// The triangle from each of its corners on.
+/// The triangle, starting at each of its corners.
 pub(super) fn rotations([a, b, c]: [u32; 3]) -> [[u32; 3]; 3] {
     [[a, b, c], [b, c, a], [c, a, b]]
 }
 
-/// The triangle from its lowest index on, in the same orientation.
+/// The triangle, starting with its lowest index, in the same orientation.
 pub(super) fn from_lowest(triangle: [u32; 3]) -> [u32; 3] {
     let [a, b, c] = rotations(triangle);
     a.min(b).min(c)
 }
 
-/// A triangle that may be taken away; the one that is most too large comes first.
+/// A triangle that may be removed. The largest excess comes first.
 struct Peeled {
     excess: f64,
     corners: [u32; 3],
@@ -258,7 +259,7 @@ fn fans(arcs: &[[u32; 2]]) -> Vec<Vec<[u32; 2]>> {
     let is_start = |arc: &[u32; 2]| arcs.iter().all(|other| other[1] != arc[0]);
     let starts: Vec<[u32; 2]> = arcs.iter().copied().filter(is_start).collect();
     if starts.is_empty() && !arcs.is_empty() {
-        // Surrounded: `GrowingSurface::add` lets no second circle in.
+        // The point is surrounded: `GrowingSurface::add` allows no second fan there.
         return vec![arcs.to_vec()];
     }
     for start in starts {

@@ -1,15 +1,17 @@
-//! The tangent plane of a point, and what is decided in it.
+//! The tangent plane of a point: the map of its neighbors to the plane, and predicates there.
 //!
-//! A neighbour is turned into the plane: it keeps its distance and its direction round the normal, as in
-//! M. Gopi, S. Krishnan, C. Silva, Surface reconstruction based on lower dimensional localized Delaunay
-//! triangulation, Eurographics 2000, section 4.1, so that a curved surface is not compressed.
-//! Decisions in the plane are exact for the coordinates in it (the crate `robust`).
+//! The map keeps the distance of a neighbor from the point and its direction round the normal, so that a curved surface
+//! is not compressed. Predicates are exact for the coordinates in the plane (the crate `robust`).
+//!
+//! Source: M. Gopi, S. Krishnan, C. Silva, Surface reconstruction based on lower dimensional localized Delaunay
+//! triangulation, Eurographics 2000, section 4.1.
 
 use crate::math::Vec3;
+use crate::math::frame::axes_across;
 use robust::Coord;
 
-/// The largest slope of the line to a neighbour against the tangent plane, as a tangent: 60°. Steeper lines
-/// lead to another sheet.
+/// Upper bound on the slope of the line to a neighbor against the tangent plane, as a tangent: 60°. A steeper line
+/// leads to another sheet of the surface.
 const STEEPEST: f64 = 1.732;
 
 /// A place in a tangent plane; the point that the plane belongs to is the origin.
@@ -29,17 +31,16 @@ pub(super) struct Tangent {
 impl Tangent {
     /// The frame at `origin`; seen against `normal`, a unit vector, angles run counter-clockwise.
     pub(super) fn new(origin: Vec3, normal: Vec3) -> Self {
-        // The axis that is farthest from the normal, for a cross product without cancellation.
-        let u = normal.cross(&Vec3::ith(normal.iamin(), 1.0)).normalize();
+        let [u, v] = axes_across(&normal);
         Self {
             origin,
             normal,
             u,
-            v: normal.cross(&u),
+            v,
         }
     }
 
-    /// Where `point` comes to lie; `None` when it lies too steeply above or below the plane.
+    /// The position of `point` in the plane; `None` when it lies too steeply above or below the plane.
     pub(super) fn place(&self, point: &Vec3) -> Option<TangentPlace> {
         let d = point - self.origin;
         let (x, y, height) = (d.dot(&self.u), d.dot(&self.v), d.dot(&self.normal));

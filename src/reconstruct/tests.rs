@@ -1,7 +1,8 @@
-//! Surfaces from points whose answer is known, and everything that can be wrong with points.
+//! Tests: reconstructs surfaces that are known, and gives wrong and degenerate points.
 
 use super::*;
 use crate::boundary::loops::BoundaryLoops;
+use crate::error::ErrorKind;
 use crate::fixtures::{self, Arrays, Noise, Point};
 use crate::job::Job;
 use crate::mesh::attributes::{AttributeValues, ScalarValues};
@@ -439,14 +440,14 @@ fn any_points() -> impl Strategy<Value = Vec<Point>> {
         prop::collection::vec(prop::array::uniform3(-1.0..1.0), 1..8),
         0_u64..99,
     )
-        .prop_map(|(centres, seed): (Vec<Point>, u64)| {
+        .prop_map(|(centers, seed): (Vec<Point>, u64)| {
             let mut noise = Noise(seed);
             let near = |c: &Point| -> Vec<Point> {
                 (0..9)
                     .map(|_| c.map(|c| c + 1e-9 * noise.signed()))
                     .collect()
             };
-            centres.iter().flat_map(near).collect()
+            centers.iter().flat_map(near).collect()
         });
     prop_oneof![lattice, anywhere, flat, clusters]
 }

@@ -1,44 +1,44 @@
-//! Target edge lengths: at the rim from the mesh, inside by interpolation and, in large holes,
-//! growing with the distance from the rim.
+//! Target edge lengths of a patch. At the rim they are those of the mesh; inside they are interpolated. In large holes
+//! they grow with the distance from the rim.
 //!
-//! Based on: P. Liepa, "Filling holes in meshes", Symposium on Geometry Processing, 2003 (a scale
-//! attribute at each rim vertex, inherited by inserted vertices), with the growth added here: a wide
-//! hole with `m` rim edges takes about `0.18 m²` triangles at uniform density, but only a multiple
-//! of `m` when the target length is `rim size + grading · distance from the rim`.
+//! A hole with `m` rim edges takes about `0.18 m²` triangles at uniform density. With the target length `rim size +
+//! grading · distance from the rim` it takes only a multiple of `m`.
 //!
-//! `O(1)` per inserted vertex. Not guaranteed: distances run along patch edges, so they exceed
-//! straight ones by up to a sixth.
+//! Source: P. Liepa, "Filling holes in meshes", Symposium on Geometry Processing, 2003 (a scale attribute at each rim
+//! vertex, inherited by inserted vertices). The growth is our own.
+//!
+//! Cost: `O(1)` for each inserted vertex. Not guaranteed: exact distances. They are measured along patch edges and
+//! are up to a sixth too long.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
 use crate::patch::mesh::{PatchMesh, prev};
 use std::collections::VecDeque;
 
-/// Rims up to this many edges are filled at uniform density, with at most some 11,000 triangles.
+/// Upper bound on the rim edges of a hole that is filled at uniform density. It takes at most some 11,000 triangles.
 const UNIFORM_RIM: f64 = 250.0;
 
-/// Growth of the target length per distance from the rim, in the limit of very large rims. A round
+/// Limit of the grading for very large rims: growth of the target length, divided by the distance from the rim. A round
 /// hole then takes about `11 m` triangles.
 const LIMIT_GRADING: f64 = 0.2;
 
-/// Smallest target length over the mean of the rim: each halving of the length at a few degenerate edges
-/// would add as many vertices as the one before, and none of them shape.
+/// Lower bound on a target length, divided by the mean one at the rim. Without it, a few degenerate edges would add
+/// many vertices that do not improve the shape.
 const MIN_RELATIVE_SIZE: f64 = 0.05;
 
 /// The growth of the target edge length with distance for a hole with `rim_count` edges.
 ///
-/// Zero up to 250 edges, then `0.2 (1 - 250/m)²`: it starts with zero slope, and the triangles in
-/// a round hole stay near their number at 250 edges until `m` is about 700, from where on they
-/// grow in proportion to `m`.
+/// It is zero up to 250 edges, then `0.2 (1 - 250/m)²`, which starts with slope zero. The number of triangles in a
+/// round hole stays about constant from 250 to 700 edges, and then grows in proportion to `m`.
 pub(crate) fn grading(rim_count: usize) -> f64 {
     let rest = 1.0 - UNIFORM_RIM / (rim_count as f64).max(UNIFORM_RIM);
     LIMIT_GRADING * rest * rest
 }
 
-/// Target edge length at each rim vertex: `mesh_edge_lengths[v]`, the mean length of the mesh edges
-/// at `v`, or the mean of its rim edges where that slice is too short or not positive.
+/// Target edge length at each rim vertex `v`: the mean length of the mesh edges there, `mesh_edge_lengths[v]`. If
+/// this is missing or not positive, it is the mean length of the rim edges at `v`.
 ///
 /// # Errors
 /// `Topology` or `InvalidInput` when rim edges are needed and the patch is not manifold; `Geometry` when
@@ -56,10 +56,7 @@ pub(crate) fn rim_sizes(surface: &PatchSurface, mesh_edge_lengths: &[f64]) -> Re
     };
     let mean = sizes.iter().sum::<f64>() / sizes.len().max(1) as f64;
     if !usable(mean) {
-        return Err(Error::new(
-            ErrorKind::Geometry,
-            "the rim of the hole has no extent",
-        ));
+        return Err(Error::geometry("the rim of the hole has no extent"));
     }
     for size in &mut sizes {
         *size = size.max(MIN_RELATIVE_SIZE * mean);
@@ -91,7 +88,7 @@ fn mean_rim_edges(surface: &PatchSurface) -> Result<Vec<f64>> {
 
 /// The target edge length at every vertex of a patch that is being refined.
 ///
-/// A size is the sum of a base, interpolated from the rim, and the grading times the depth, the
+/// A size is the sum of two terms: a base, interpolated from the rim, and the grading times the depth. The depth is the
 /// distance from the rim.
 pub(super) struct SizeField {
     sizes: Vec<f64>,
@@ -100,12 +97,12 @@ pub(super) struct SizeField {
 }
 
 impl SizeField {
-    /// Takes sizes for all vertices, or for the rim only; interior vertices then inherit the size of
-    /// the nearest rim vertex.
+    /// Takes sizes for all vertices, or for the rim vertices only. In the second case, interior vertices inherit the
+    /// size of the nearest rim vertex.
     ///
     /// # Errors
     /// `InvalidInput` unless there is one positive, finite size for each vertex or for each rim
-    /// vertex, and the grading is finite and not negative; `Cancelled` when the job is stopped.
+    /// vertex, and the grading is finite and not negative; `Cancelled` when the job is cancelled.
     pub(super) fn new(
         mesh: &PatchMesh,
         points: &[Vec3],
@@ -115,25 +112,16 @@ impl SizeField {
     ) -> Result<Self> {
         let (rim, all) = (mesh.rim_count(), mesh.vertex_count());
         if given.len() != rim && given.len() != all {
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                format!(
-                    "{} target edge lengths for {rim} rim and {all} vertices",
-                    given.len()
-                ),
-            ));
+            return Err(Error::invalid(format!(
+                "{} target edge lengths for {rim} rim and {all} vertices",
+                given.len()
+            )));
         }
         if !given.iter().all(|s| s.is_finite() && *s > 0.0) {
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                "a target edge length is not positive",
-            ));
+            return Err(Error::invalid("a target edge length is not positive"));
         }
         if !(grading.is_finite() && grading >= 0.0) {
-            return Err(Error::new(
-                ErrorKind::InvalidInput,
-                "the grading is negative or not finite",
-            ));
+            return Err(Error::invalid("the grading is negative or not finite"));
         }
         if given.len() == all && grading == 0.0 {
             return Ok(Self {
@@ -147,7 +135,7 @@ impl SizeField {
         let sizes = (0..all).map(|v| {
             let growth = grading * depths[v];
             match given.get(v) {
-                // The patch may have moved since: a base below all rim sizes would feed on itself.
+                // The depth may have changed since. The lower bound keeps the base from shrinking with each call.
                 Some(&size) if v >= rim => (size - growth).max(smallest) + growth,
                 Some(&size) => size,
                 None => given[nearest[v] as usize] + growth,
@@ -202,7 +190,7 @@ impl SizeField {
         self.depths.push(depth);
     }
 
-    /// Measures the depth of an interior vertex anew, given the distances to its neighbours.
+    /// Updates the depth of an interior vertex, given the distances to its neighbors.
     pub(super) fn measure_depth(&mut self, v: u32, ring: impl Iterator<Item = (u32, f64)>) {
         let base = self.base(v);
         let depth = ring
@@ -215,8 +203,8 @@ impl SizeField {
     }
 }
 
-/// For each vertex the nearest rim vertex and the distance to it along edges; vertices without
-/// triangles count as the rim's first.
+/// For each vertex, the nearest rim vertex and the distance to it along edges. Vertices without triangles get the first
+/// rim vertex.
 fn distances_from_rim(
     mesh: &PatchMesh,
     points: &[Vec3],
@@ -229,17 +217,17 @@ fn distances_from_rim(
     let mut depths = vec![f64::INFINITY; all];
     depths[..rim].fill(0.0);
     if rim < all {
-        // Bellman-Ford with a queue: near the rim first, so few vertices are seen twice.
+        // Bellman-Ford with a queue that starts at the rim, so few vertices are visited twice.
         let mut waiting: VecDeque<u32> = (0..rim as u32).collect();
         let mut queued = vec![true; all];
         queued[rim..].fill(false);
         while let Some(v) = waiting.pop_front() {
             job.tick(3)?;
             queued[v as usize] = false;
-            let neighbours = mesh
+            let neighbors = mesh
                 .corners(v)
                 .flat_map(|h| [mesh.target(h), mesh.origin(prev(h))]);
-            for u in neighbours.map(|u| u as usize) {
+            for u in neighbors.map(|u| u as usize) {
                 let depth = depths[v as usize] + (points[u] - points[v as usize]).norm();
                 if depth < depths[u] {
                     depths[u] = depth;
@@ -263,6 +251,7 @@ fn distances_from_rim(
 mod tests {
     use super::super::fixtures::{disc_rim, fan_patch};
     use super::*;
+    use crate::error::ErrorKind;
 
     #[test]
     fn grading_starts_smoothly_and_never_falls() {

@@ -1,36 +1,37 @@
-//! Delaunay edge flips, driven by a stack of edges whose neighbourhood changed.
+//! Delaunay edge flips, with a stack of edges whose neighborhood changed.
 //!
-//! An edge is flipped when the two angles opposite to it sum to more than π: the empty-circle test,
-//! in a form that needs no plane.
-//! Based on: C. L. Lawson, "Software for C1 surface interpolation", Mathematical Software III, 1977;
-//! the angle form on surfaces follows A. Bobenko and B. Springborn, "A discrete Laplace-Beltrami
-//! operator for simplicial surfaces", Discrete & Computational Geometry 38, 2007.
+//! An edge is flipped if the sum of the two angles opposite to it is above π. In a plane this is the empty-circle test,
+//! but it needs no plane. Flips that would fold the patch or make a blocked edge are not done.
 //!
-//! Cost: one test per edge on the stack, `O(valence)` more per flip. In the plane the result is
-//! Delaunay wherever no veto holds; on a curved patch a flip changes the surface, so nothing
-//! guarantees that the flips end by themselves. Each call therefore has a flip budget.
+//! Sources: C. L. Lawson, "Software for C1 surface interpolation", Mathematical Software III, 1977; A. Bobenko and
+//! B. Springborn, "A discrete Laplace-Beltrami operator for simplicial surfaces", Discrete & Computational Geometry 38,
+//! 2007, for the criterion on surfaces.
+//!
+//! Cost: one test for each edge on the stack, and `O(valence)` for each flip. Not guaranteed: that all edges are
+//! Delaunay at the end. On a curved patch a flip changes the surface, so flips might never end; each call has an
+//! upper bound on their number.
 
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
 use crate::patch::mesh::{Halfedge, PatchMesh, prev};
 
-/// Opposite angles count as more than π when the sine of their sum is below minus this. Cocircular
-/// corners, as in any regular grid, give rounding noise of about 1e-15 that must not cause flips.
+/// The sum of opposite angles counts as above π if its sine is below minus this. Four corners on a circle, as in a
+/// regular grid, give rounding errors of about 1e-15, which must not cause flips.
 const ANGLE_TOLERANCE: f64 = 1e-9;
 
-/// Least cosine between a new triangle's normal and the mean normal of the two it replaces. Larger
-/// turns (over 72 degrees) would fold the patch or cut through a ridge.
+/// Lower bound on the cosine between a new triangle's normal and the mean normal of the two triangles that it replaces.
+/// A larger angle (above 72 degrees) would fold the patch or cut off a ridge.
 const MIN_NORMAL_COSINE: f64 = 0.3;
 
-/// Flips granted per stacked edge of one call. Lawson's method needs about one in practice; the rest
-/// is for unlucky initial triangulations.
+/// Upper bound on the flips of one call, divided by the number of edges on its stack. About one is usual; unfavorable
+/// triangulations need more.
 const FLIPS_PER_EDGE: usize = 16;
 
 /// Whether an edge between these two rim vertices exists outside the patch.
 pub(super) type Blocked<'a> = dyn Fn(u32, u32) -> bool + 'a;
 
-/// Flips edges of one patch; owns the stack so that it is allocated once.
+/// Flips edges of one patch. It owns the stack, so that it is allocated once.
 pub(super) struct Flipper<'a> {
     blocked: &'a Blocked<'a>,
     job: &'a Job<'a>,
@@ -46,11 +47,11 @@ impl<'a> Flipper<'a> {
         }
     }
 
-    /// Tests `edges`, and every edge next to a flipped one, until no flip is due. Returns the number
-    /// of flips.
+    /// Tests `edges`, and every edge next to a flipped one, until no edge is to be flipped. Returns the number of
+    /// flips.
     ///
     /// # Errors
-    /// `Cancelled` when the job is stopped.
+    /// `Cancelled` when the job is cancelled.
     pub(super) fn restore(
         &mut self,
         mesh: &mut PatchMesh,
@@ -70,8 +71,8 @@ impl<'a> Flipper<'a> {
         let mut budget = FLIPS_PER_EDGE * mesh.halfedge_count() as usize;
         let granted = budget;
         for t in 0..mesh.triangles().len() {
-            // An edge that is due has an obtuse angle opposite to it on one side at least, and what a
-            // flip changes behind this triangle is on the stack.
+            // An edge that is to be flipped has an obtuse angle opposite to it on at least one side. Edges of triangles
+            // already passed that a flip changes are on the stack.
             if let Some(h) = opposite_obtuse(points, mesh.triangles()[t], t as u32) {
                 self.restore_from(mesh, points, h, &mut budget)?;
             }
@@ -110,7 +111,7 @@ impl<'a> Flipper<'a> {
     }
 }
 
-/// The half-edge of triangle `t` opposite to its obtuse angle, if it has one.
+/// The halfedge of triangle `t` opposite to its obtuse angle, if it has one.
 #[inline]
 fn opposite_obtuse(points: &[Vec3], corners: [u32; 3], t: u32) -> Option<Halfedge> {
     let [a, b, c] = corners.map(|v| &points[v as usize]);
@@ -133,7 +134,7 @@ fn wants_flip(mesh: &PatchMesh, points: &[Vec3], h: Halfedge, g: Halfedge) -> bo
     let (a, b, c, d) = (corner(h), corner(g), corner(prev(h)), corner(prev(g)));
     let (ca, cb, da, db) = (a - c, b - c, a - d, b - d);
     let (cos_c, cos_d) = (ca.dot(&cb), da.dot(&db));
-    // Only if an angle is obtuse is there more to see.
+    // Without an obtuse angle the sum is not above π.
     (cos_c < 0.0 || cos_d < 0.0) && {
         let (normal_c, normal_d) = (ca.cross(&cb), db.cross(&da));
         // The sine of the two angles' sum, times the lengths of their sides.
@@ -146,7 +147,7 @@ fn wants_flip(mesh: &PatchMesh, points: &[Vec3], h: Halfedge, g: Halfedge) -> bo
     }
 }
 
-/// Whether the triangles `c a d` and `d b c` lie on the side of those that they replace.
+/// Whether the triangles `c a d` and `d b c` face the same side as those that they replace.
 fn keeps_sides([a, b, c, d]: [&Vec3; 4], normal_c: Vec3, normal_d: Vec3) -> bool {
     let mean = unit(unit(normal_c) + unit(normal_d));
     let keeps_side = |n: Vec3| {

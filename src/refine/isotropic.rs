@@ -1,80 +1,78 @@
-//! Splits, flips and relaxes a patch until its edges have the target length.
+//! Refines a patch: splits, flips and relaxes until no edge is longer than its target length allows.
 //!
-//! Based on: P. Liepa, "Filling holes in meshes", Symposium on Geometry Processing, 2003 (insertion
-//! by a size attribute, edges kept Delaunay), with insertion by edge splits and tangential relaxation
-//! from M. Botsch and L. Kobbelt, "A remeshing approach to multiresolution modeling", Symposium on
-//! Geometry Processing, 2004. Nothing is ever collapsed: the first triangulation has no interior
-//! vertex, so there is nothing to remove.
+//! Each pass splits edges that are too long, the longest first and at most one edge of a triangle. Then it restores the
+//! Delaunay property and relaxes the vertices. When a pass splits only few edges, the whole patch gets its final
+//! relaxations. Edges that became too long by these are split in passes that work only near their new vertices. Rim
+//! vertices do not move, and rim edges are neither split nor flipped. No edge is collapsed.
 //!
-//! Each pass splits an independent set of too long edges, longest first, restores the Delaunay
-//! property and relaxes. When a pass splits little, the patch gets its final relaxations; what they make
-//! too long is split in passes that work only near their new vertices. `O(n log n)` for `n` triangles in
-//! the result, on every input met so far.
+//! Sources: P. Liepa, "Filling holes in meshes", Symposium on Geometry Processing, 2003, for the size attribute and the
+//! Delaunay property; M. Botsch and L. Kobbelt, "A remeshing approach to multiresolution modeling", Symposium on
+//! Geometry Processing, 2004, for edge splits and tangential relaxation.
 //!
-//! Rim vertices keep their bits, rim edges are neither split nor flipped. Not guaranteed: that no
-//! two triangles of a strongly twisted patch intersect; that edges just under the splitting threshold
-//! are the best choice for very small holes.
+//! Cost: `O(n log n)` for `n` triangles in the result, in all measurements. Not guaranteed: that no two triangles of a
+//! strongly twisted patch intersect.
 
 use super::density::SizeField;
 use super::flip::{Blocked, Flipper};
 use super::locality::renumber;
 use super::relax::relax;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::math::Vec3;
 use crate::patch::PatchSurface;
 use crate::patch::mesh::{Halfedge, PatchMesh, next, prev};
 use std::cmp::Reverse;
 
-/// Each pass at least halves the longest edges' excess, give or take neighbours that exclude each
-/// other; only inputs on which splitting makes no headway come near this.
+/// Upper bound on the number of passes. A pass roughly halves the longest edges, so only inputs on which splitting
+/// has no effect come near this bound.
 const MAX_PASSES: usize = 128;
 
-/// A pass that adds less than this part of the vertices is one of the last: the whole patch gets its
-/// final relaxations, and later passes relax only the surroundings of their own vertices.
+/// If a pass adds fewer vertices than this share, the whole patch gets its final relaxations. Later passes relax only
+/// the neighborhood of their own vertices.
 const LOCAL_PASS: f64 = 0.2;
 
-/// How many edges from a new vertex a local pass reaches.
+/// Number of rings round a new vertex that a local pass relaxes.
 const LOCAL_RINGS: usize = 1;
 
-/// Patches with fewer vertices fit into the cache in any order.
+/// Lower bound on the vertices of a patch that is renumbered. A smaller one fits into the cache in any order.
 const RENUMBER_FROM: usize = 5_000;
 
-/// Growth after which the vertices are put in order again.
+/// Growth of the number of vertices after which the patch is renumbered again.
 const RENUMBER_GROWTH: f64 = 1.3;
 
-/// Relaxation has settled when no vertex moves by more than this part of its target edge length.
+/// Relaxation ends when no vertex moves by more than this share of its target edge length.
 const SETTLED_MOVE: f64 = 1e-3;
 
-/// Rims of up to this many edges are closed without an interior vertex unless an edge exceeds the
-/// target by more than the diagonals of regular polygons of that size.
+/// A rim of at most this number of edges is closed without an interior vertex, if no edge exceeds its target length by
+/// more than `SMALL_RIM_FACTOR`.
 const SMALL_RIM: usize = 5;
 
-/// Diagonal over side in the regular pentagon, 1.618, and some room for irregular ones.
+/// See [`SMALL_RIM`]. The diagonal of a regular pentagon, divided by its side, is 1.618; irregular ones have a bit
+/// more.
 const SMALL_RIM_FACTOR: f64 = 1.75;
 
-/// Squared length of a rim edge, over that at which it would be split if it were inside, above which the shorter sides
-/// of its triangle stay whole. At 2 and with a right angle opposite the edge, the longer of them is about as long as
-/// an edge may be: splitting shortens neither for good.
+/// A rim edge is holding if its squared length, divided by the squared length above which an interior edge would be
+/// split, is above this. Then the other sides of its triangle are not split: since the rim edge stays, the longer of
+/// them is about too long wherever the third corner is.
 const HOLDING: f64 = 2.0;
 
-/// How to refine.
+/// The parameters of refinement.
 #[derive(Clone)]
 pub(crate) struct RefineOptions<'a> {
-    /// Interior edges longer than this times the mean target length of their ends are split.
+    /// An interior edge is split if its length, divided by the mean target length of its ends, is above this.
     pub(crate) split_factor: f64,
-    /// The same for interior edges between two rim vertices, which would tie the rim together.
+    /// The same for interior edges between two rim vertices.
     pub(crate) chord_factor: f64,
-    /// Growth of the target length of new vertices per distance from the rim; 0 is uniform.
+    /// Growth of the target length, divided by the distance from the rim; 0 gives a uniform density.
     pub(crate) grading: f64,
     /// Relaxations after each pass of splits.
     pub(crate) pass_relaxations: usize,
-    /// Relaxations of the whole patch when little is left to split; at least `pass_relaxations` if
-    /// the last pass split anything.
+    /// Relaxations of the whole patch when only few edges are left to split; at least `pass_relaxations` if the last
+    /// pass split an edge.
     pub(crate) final_relaxations: usize,
-    /// Refinement that needs more vertices than this fails.
+    /// Upper bound on the vertices of the result. Refinement fails if it needs more.
     pub(crate) max_vertices: usize,
-    /// Ends the work with a `Cancelled` error when it is stopped.
+    /// The job, which can be cancelled.
     pub(crate) job: &'a Job<'a>,
 }
 
@@ -92,31 +90,29 @@ impl<'a> RefineOptions<'a> {
     }
 }
 
-/// What refinement did.
+/// The report of a refinement.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct RefineReport {
     /// Vertices inserted.
     pub(crate) splits: usize,
     /// Edges flipped.
     pub(crate) flips: usize,
-    /// Longest way that a vertex went in the last relaxation, in target edge lengths.
+    /// Largest move of a vertex in the last relaxation, in target edge lengths.
     pub(crate) last_move: f64,
 }
 
-/// Refines `surface` until no interior edge is longer than its target length allows, but for those beside a rim edge
-/// that is at least as long and above [`HOLDING`].
+/// Refines `surface` until no interior edge is longer than its target length allows. Edges beside a rim edge that is at
+/// least as long and [`HOLDING`] are excepted.
 ///
-/// `sizes` holds the target edge length of each rim vertex or of each vertex, and of each vertex
-/// afterwards. `blocked(a, b)` says that the mesh round the patch has an edge between the rim
-/// vertices `a` and `b`, which therefore must not appear in the patch. Meant to be called again
-/// after the points moved: a patch that is still fine costs a few looks at every edge and the final
-/// relaxations. Rim vertices keep their numbers; interior ones do too unless a patch of more than
-/// some thousand vertices grows by a third, and triangles are reordered freely.
+/// `sizes` are the target edge lengths of all vertices or of the rim vertices; at return, of all vertices.
+/// `blocked(a, b)` says that the mesh has an edge between the rim vertices `a` and `b`, so the patch must not have
+/// one. The function can be called again after the points moved; if no edge is too long, this costs a few tests of
+/// every edge and the final relaxations. Rim vertices keep their numbers. Interior vertices keep them unless a patch
+/// of some thousand vertices grows by a third. Triangles are reordered.
 ///
 /// # Errors
-/// `Topology` or `InvalidInput` for a patch that is not manifold, points that are not finite or sizes
-/// that are not positive; `Limit` when `max_vertices` do not suffice;
-/// `Cancelled`. The surface is then unchanged.
+/// `Topology` or `InvalidInput` for a patch that is not manifold, points that are not finite or sizes that are not
+/// positive; `Limit` when more than `max_vertices` are needed; `Cancelled`. The surface is then unchanged.
 pub(crate) fn refine(
     surface: &mut PatchSurface,
     sizes: &mut Vec<f64>,
@@ -124,10 +120,7 @@ pub(crate) fn refine(
     blocked: &Blocked<'_>,
 ) -> Result<RefineReport> {
     if !surface.points.iter().flatten().all(|x| x.is_finite()) {
-        return Err(Error::new(
-            ErrorKind::InvalidInput,
-            "a patch point is not finite",
-        ));
+        return Err(Error::invalid("a patch point is not finite"));
     }
     options.job.ask()?;
     let mesh = PatchMesh::new(
@@ -155,8 +148,7 @@ pub(crate) fn refine(
     Ok(refiner.report)
 }
 
-/// How far an edge is above the length at which it is split, in quarters of an octave, and one of its
-/// half-edges.
+/// An edge to split: its length above the threshold, in quarters of an octave, and one of its halfedges.
 type LongEdge = (Reverse<u32>, Halfedge);
 
 struct Refiner<'a> {
@@ -165,9 +157,9 @@ struct Refiner<'a> {
     sizes: SizeField,
     options: &'a RefineOptions<'a>,
     flipper: Flipper<'a>,
-    /// Edges whose Delaunay property a split or a move may have broken.
+    /// Edges that may not be Delaunay any more, because of a split or a move.
     dirty: Vec<Halfedge>,
-    /// Number of vertices when they were last put in order.
+    /// Number of vertices at the last renumbering.
     ordered: usize,
     report: RefineReport,
 }
@@ -203,9 +195,9 @@ impl Refiner<'_> {
         self.split_the_rest()
     }
 
-    /// Passes until no edge is too long, each near where the last one split.
+    /// Does passes until no edge is too long, each near the splits of the one before.
     fn split_the_rest(&mut self) -> Result<()> {
-        // Where the last pass worked, if that was not everywhere.
+        // The vertices near the last pass; `None` if it was not local.
         let mut near: Option<Vec<u32>> = None;
         for _ in 0..MAX_PASSES {
             let before = self.mesh.vertex_count();
@@ -236,7 +228,7 @@ impl Refiner<'_> {
         Ok(())
     }
 
-    /// Whether the patch grew so much that its vertices and triangles now have new numbers.
+    /// Renumbers vertices and triangles if the patch grew enough, and returns whether it did.
     fn order_if_grown(&mut self) -> Result<bool> {
         let grown = self.mesh.vertex_count() as f64 > RENUMBER_GROWTH * self.ordered as f64;
         if grown {
@@ -248,7 +240,7 @@ impl Refiner<'_> {
         Ok(grown)
     }
 
-    /// The squared length of an edge over that at which it is split.
+    /// The squared length of an edge, divided by the squared length above which it is split.
     #[inline]
     fn squared_excess(&self, a: u32, b: u32) -> f64 {
         let rim = self.mesh.rim_count();
@@ -268,10 +260,8 @@ impl Refiner<'_> {
         (self.points[a as usize] - self.points[b as usize]).norm_squared()
     }
 
-    /// Whether a triangle at the edge of `h` has a rim edge at least as long that is [`HOLDING`].
-    ///
-    /// Rim edges stay, so unless the angle opposite is obtuse the longer of the other two sides is about too long
-    /// wherever the apex is: splits there make no headway.
+    /// Whether a triangle at the edge of `h` has a rim edge that is at least as long and [`HOLDING`]. Splitting the
+    /// edge of `h` would have no lasting effect.
     fn is_held(&self, h: Halfedge) -> bool {
         let ends = |h: Halfedge| (self.mesh.origin(h), self.mesh.target(h));
         let (a, b) = ends(h);
@@ -286,7 +276,7 @@ impl Refiner<'_> {
         sides.flat_map(|side| [next(side), prev(side)]).any(holds)
     }
 
-    /// Lists the edge of `h` from `a` to `b` if it is too long.
+    /// Adds the edge of `h` from `a` to `b` to the list if it is too long.
     #[inline]
     fn collect_long(&self, h: Halfedge, a: u32, b: u32, long: &mut Vec<LongEdge>) {
         let excess = self.squared_excess(a, b);
@@ -315,7 +305,7 @@ impl Refiner<'_> {
         long
     }
 
-    /// The same among the edges out of `vertices`; an edge may occur twice.
+    /// The edges at `vertices` that are too long, with their excess. An edge may occur twice.
     fn long_edges_at(&self, vertices: &[u32]) -> Vec<LongEdge> {
         let mut long = Vec::new();
         for &v in vertices {
@@ -326,7 +316,7 @@ impl Refiner<'_> {
         long
     }
 
-    /// Splits the edges, longest first to a quarter of an octave, no two of one triangle. Returns the
+    /// Splits the edges, the longest first (to a quarter of an octave), at most one edge of a triangle. Returns the
     /// number of splits.
     fn split_edges(&mut self, mut long: Vec<LongEdge>) -> Result<usize> {
         let before = self.mesh.vertex_count();
@@ -342,13 +332,10 @@ impl Refiner<'_> {
                 continue;
             }
             if self.mesh.vertex_count() >= self.options.max_vertices {
-                return Err(Error::new(
-                    ErrorKind::Limit,
-                    format!(
-                        "the patch needs more than {} vertices",
-                        self.options.max_vertices
-                    ),
-                ));
+                return Err(Error::limit(format!(
+                    "the patch needs more than {} vertices",
+                    self.options.max_vertices
+                )));
             }
             used[h as usize / 3] = true;
             used[g as usize / 3] = true;
@@ -366,7 +353,7 @@ impl Refiner<'_> {
         self.sizes
             .push_midpoint(&self.points, &middle, [a, b], apexes);
         self.points.push(middle);
-        // Halving a triangle leaves the four inner edges Delaunay.
+        // The edges at the new vertex are Delaunay, so only those that `split` returns are tested.
         self.dirty.extend(self.mesh.split(h, g));
     }
 
@@ -390,7 +377,7 @@ impl Refiner<'_> {
         self.restore_all()
     }
 
-    /// Relaxes interior `vertices` and restores the edges round them.
+    /// Relaxes interior `vertices` and makes the edges round them Delaunay again.
     fn relax_some(&mut self, vertices: &[u32]) -> Result<()> {
         self.report.last_move = 0.0;
         for &v in vertices {
@@ -431,7 +418,8 @@ impl Refiner<'_> {
     }
 }
 
-/// Number of new vertices from which a pass that starts with `before` relaxes the whole patch.
+/// Lower bound on the new vertices of a pass that relaxes the whole patch. `before` is the number of vertices at its
+/// start.
 fn local_limit(before: usize) -> usize {
     (LOCAL_PASS * before as f64) as usize + 1
 }

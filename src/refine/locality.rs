@@ -1,10 +1,11 @@
-//! Numbers interior vertices and triangles along a space-filling curve, so that neighbours in the
-//! patch are neighbours in memory.
+//! Renumbers interior vertices and triangles along a space-filling curve, so that neighbors in the patch are near in
+//! memory.
 //!
-//! Based on: G. M. Morton, "A computer oriented geodetic data base and a new technique in file
-//! sequencing", IBM, 1966. Splitting appends each generation of vertices behind the last; on a patch
-//! of a million triangles every look at a neighbour then misses the cache, which costs a factor of
-//! four. `O(n log n)` for the sort. Nothing but numbers changes.
+//! Splitting appends new vertices at the end. On a patch of a million triangles, each access to a neighbor then misses
+//! the cache, which makes refinement four times slower. Only numbers change.
+//!
+//! Source: G. M. Morton, "A computer oriented geodetic data base and a new technique in file sequencing", IBM, 1966.
+//! Cost: `O(n log n)` for sorting.
 
 use super::density::SizeField;
 use crate::math::Vec3;
@@ -26,7 +27,7 @@ pub(super) fn renumber(mesh: &mut PatchMesh, points: &mut Vec<Vec3>, sizes: &mut
     mesh.renumber(&renamed);
 }
 
-/// Old vertex numbers in their new order: the rim as it is, then the others along the curve.
+/// Old vertex numbers in their new order: first the rim, unchanged, then the others along the curve.
 fn curve_order(points: &[Vec3], rim: usize) -> Vec<u32> {
     let low = points
         .iter()

@@ -1,8 +1,7 @@
 //! Gives a patch the density of the mesh round its hole.
 //!
-//! [`rim_sizes`] and [`grading`] say how long the edges should be, [`refine`] inserts vertices until
-//! they are. Nothing here knows the mesh outside the patch but for one question, asked through a
-//! callback: does the mesh already own an edge between these two rim vertices?
+//! [`rim_sizes`] and [`grading`] give the target edge lengths. [`refine`] inserts vertices until the edges have them.
+//! All that is known of the mesh is a callback, which says whether the mesh has an edge between two rim vertices.
 
 mod density;
 #[cfg(test)]

@@ -1,28 +1,26 @@
-//! Tangential relaxation: moves an interior vertex toward the centroid of its one-ring, within its
-//! tangent plane, never through a neighbouring edge.
+//! Tangential relaxation: moves an interior vertex in its tangent plane toward the centroid of its one-ring.
 //!
-//! The centroid weighs each triangle by its area over its squared target edge length, so that at
-//! rest every triangle has the area that its size asks for. With uniform sizes this is the
-//! area-weighted relaxation of: M. Botsch and L. Kobbelt, "A remeshing approach to multiresolution
-//! modeling", Symposium on Geometry Processing, 2004.
+//! In the centroid, each triangle has its area as weight, divided by its squared target edge length. So triangles
+//! tend to the areas that their target lengths ask for. A move ends before it folds a triangle. Vertices move one
+//! after the other, and each sees the moves before.
 //!
-//! Vertices move one after the other, each seeing the moves before it: `O(valence)` each. Not
-//! guaranteed: that a triangle which is already folded gets unfolded (it never gets worse), and that
-//! the vertex stays on a curved surface (it stays in the tangent plane).
+//! Source: M. Botsch and L. Kobbelt, "A remeshing approach to multiresolution modeling", Symposium on Geometry
+//! Processing, 2004, for uniform sizes. Cost: `O(valence)` for each vertex. Not guaranteed: that a folded triangle is
+//! unfolded (it does not get worse); that the vertex stays on a curved surface (it stays in the tangent plane).
 
 use super::density::SizeField;
 use crate::math::Vec3;
 use crate::patch::mesh::{Halfedge, PatchMesh, prev};
 
-/// Part of the way to the centroid that one move goes; the full way oscillates.
+/// Length of a move, as a share of the distance to the centroid. Full moves oscillate.
 const STEP: f64 = 0.7;
 
-/// No move may shrink a triangle, seen along the vertex normal, below this part of the mean of its
+/// Lower bound on the area of a triangle after a move, projected along the vertex normal, as a share of the mean of the
 /// ring.
 const FOLD_MARGIN: f64 = 0.1;
 
-/// What the triangles round a vertex amount to; offsets are relative to the vertex, normals have twice
-/// the area of their triangle.
+/// Sums over the triangles round a vertex. Offsets are relative to the vertex; the length of a normal is twice the
+/// area of its triangle.
 struct Ring {
     normal: Vec3,
     /// Three times the weighted sum of the centroids.
@@ -32,12 +30,12 @@ struct Ring {
     /// Sum and minimum of the lengths of the normals.
     total: f64,
     smallest: f64,
-    /// Greatest squared distance of a neighbour.
+    /// Greatest squared distance of a neighbor.
     reach: f64,
 }
 
-/// Moves `v` if triangles surround it, updates its size, and returns the length of the move over the
-/// target edge length there.
+/// Moves `v` if triangles surround it, and updates its size. Returns the length of the move, divided by the target edge
+/// length.
 pub(super) fn relax(mesh: &PatchMesh, points: &mut [Vec3], sizes: &mut SizeField, v: u32) -> f64 {
     let Some(start) = mesh.closed_start(v) else {
         return 0.0;
@@ -52,17 +50,17 @@ pub(super) fn relax(mesh: &PatchMesh, points: &mut [Vec3], sizes: &mut SizeField
     }
     points[v as usize] = target;
     if sizes.is_graded() {
-        let neighbours = mesh.corners(v).map(|h| mesh.target(h));
+        let neighbors = mesh.corners(v).map(|h| mesh.target(h));
         sizes.measure_depth(
             v,
-            neighbours.map(|u| (u, (points[u as usize] - target).norm())),
+            neighbors.map(|u| (u, (points[u as usize] - target).norm())),
         );
     }
     step.norm() / size
 }
 
 impl Ring {
-    /// Walks round the vertex at `origin`, which the half-edge `start` leaves.
+    /// Walks round the vertex at `origin`. The halfedge `start` leaves it.
     fn new(
         mesh: &PatchMesh,
         points: &[Vec3],
@@ -116,7 +114,7 @@ impl Ring {
     }
 }
 
-/// The way towards the centroid, in the tangent plane, as far as no triangle gets too small.
+/// The move toward the centroid, in the tangent plane, shortened so that no triangle gets too small.
 fn limited_step(
     ring: &Ring,
     mesh: &PatchMesh,
@@ -132,9 +130,8 @@ fn limited_step(
     let mut step = ring.centroid * (STEP / (3.0 * ring.weight));
     step -= up * step.dot(&up);
     let floor = FOLD_MARGIN * height / f64::from(ring.triangle_count);
-    // What the normals lose in their sum is what they lose, all together, when seen along `up`, so no
-    // area is smaller than this. None shrinks by more than `step` times the outer edge, which is at
-    // most twice the reach.
+    // A lower bound on the projected areas: all areas together lose `total - height` when they are projected along
+    // `up`. A move changes an area by at most `step` times the outer edge, which is at most twice the reach.
     let least_area = ring.smallest - (ring.total - height);
     let room = least_area - floor;
     if room > 0.0 && 4.0 * ring.reach * step.norm_squared() < room * room {
@@ -143,7 +140,7 @@ fn limited_step(
     step * way_to_fold(mesh, points, start, origin, &up, &step, floor)
 }
 
-/// The part of `step` after which the first triangle that shrinks has area `floor`, at most 1.
+/// The share of `step` after which the first shrinking triangle has area `floor`, at most 1.
 fn way_to_fold(
     mesh: &PatchMesh,
     points: &[Vec3],
@@ -157,7 +154,7 @@ fn way_to_fold(
     for h in mesh.corners(mesh.origin(start)) {
         let b = points[mesh.target(h) as usize] - origin;
         let c = points[mesh.apex(h) as usize] - origin;
-        // Seen along `up`, each area changes linearly with the way gone: area - t * loss.
+        // Projected along `up`, each area changes linearly with the share `t` of the move: area - t * loss.
         let loss = step.cross(&(c - b)).dot(up);
         if loss > 0.0 {
             let area = b.cross(&c).dot(up);

@@ -1,4 +1,4 @@
-//! Refinement of inputs that are wrong, degenerate or random.
+//! Tests: refinement of wrong, degenerate and random inputs.
 
 use super::density::rim_sizes;
 use super::fixtures::{

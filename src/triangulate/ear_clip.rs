@@ -1,16 +1,13 @@
 //! Ear clipping of a polygon in space, cheapest ear first.
 //!
-//! An ear is the triangle of three successive positions. The one with the least cost is cut off
-//! until few enough positions are left for a better method. The cost is the radius of the ear's
-//! circumscribed circle, or the length of the new edge if that is more: ears as in a Delaunay triangulation
-//! go first and those along a densely sampled, almost straight rim last. It is raised when the ear turns away from its two known
-//! neighbours, and more when it does not face like the rim round the hole, where it may fold over.
-//! The known ideas of ear clipping are combined here; no paper is followed.
+//! An ear is the triangle of three successive positions. The ear with the lowest cost is cut off, until few enough
+//! positions are left for a better method. The cost is the radius of the ear's circumscribed circle, or the length of
+//! the new edge if that is larger. So ears as in a Delaunay triangulation come first, and ears along a densely sampled,
+//! nearly straight rim come last. The cost is increased if the ear is bent against its two known neighbors, and more if
+//! it does not face the same side as the rim, where it may fold over. This is our own combination of known ideas.
 //!
-//! Time O(m log m), memory O(m).
-//!
-//! Not guaranteed: any optimality, and freedom from fold-overs or self-intersection where a rim
-//! comes close to itself.
+//! Cost: time O(m log m), memory O(m). Not guaranteed: an optimum; freedom from folds and self-intersections where a
+//! rim comes close to itself.
 
 use super::polygon::{ChordRules, FlatnessTest, HolePolygon};
 use crate::error::Result;
@@ -19,33 +16,34 @@ use crate::math::{Vec3, cross_normal, unit};
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
-/// Turn, as 1 − cos of the angle between normals, that costs nothing: about 45 degrees.
+/// Upper bound on the bend to a known neighbor, as 1 − cos of the angle between normals, that does not increase the
+/// cost: about 45 degrees.
 const FREE_TURN: f64 = 0.3;
-/// Growth of the cost per unit of turn beyond [`FREE_TURN`].
+/// Increase of the cost for each unit of bend above [`FREE_TURN`].
 const TURN_PENALTY: f64 = 10.0;
-/// Cosine, 60 degrees, up to which an ear faces like the rim edges that it replaces.
+/// Lower bound on the cosine between the normal of an ear and those of the rim edges that it replaces, 60 degrees.
+/// Such an ear faces the same side as the rim.
 const FACING_SHARE: f64 = 0.5;
-/// Factor of the cost of an ear that does not face like its rim, as at the flat end of a tube, where the
-/// rim's normals say nothing.
+/// Factor on the cost of an ear that does not face the same side as the rim. It is not a ban, because at the flat end
+/// of a tube the normals at the rim mean nothing.
 const DISTRUST: f64 = 8.0;
 
-/// What ear clipping leaves.
+/// The result of ear clipping.
 pub(super) struct Clipped {
     /// The ears as triangles of positions of the polygon, oriented like it.
     pub(super) ears: Vec<[u32; 3]>,
-    /// The positions that are left, in ascending order: a polygon of its own.
+    /// The positions that are left, in ascending order. They form a polygon.
     pub(super) rest: Vec<u32>,
     /// Normal of the triangle across each edge of the rest, as in [`HolePolygon::outside_normals`].
     pub(super) rest_normals: Vec<Option<Vec3>>,
-    /// Vertex pairs joined by ears that other positions could join again, in ascending order each.
+    /// Vertex pairs that ears joined and that other positions could join again. Each pair is in ascending order.
     pub(super) joined: BTreeSet<(u32, u32)>,
 }
 
-/// Cuts ears until `target` positions are left, or more when no ear is left that has an area and
-/// whose edge may arise.
+/// Cuts ears until `target` positions are left. More are left if no ear has an area and an allowed edge.
 ///
 /// # Errors
-/// `Cancelled` when the job is stopped.
+/// `Cancelled` when the job is cancelled.
 pub(super) fn clip(
     polygon: &HolePolygon<'_>,
     rules: &ChordRules<'_>,
@@ -57,12 +55,12 @@ pub(super) fn clip(
     Ok(clipper.finish())
 }
 
-/// A place in the queue; stale when the position has been cut or has a newer version.
+/// An entry of the queue. It is stale if the position was cut or has a newer version.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Ear {
-    /// Whether the ear faces away from both the rim and the polygon; such ears go last.
+    /// Whether the ear faces away from both the rim and the polygon. Such ears come last.
     is_folded: bool,
-    /// Bits of a cost that is not negative: they sort like the number.
+    /// The bits of the cost. It is not negative, so they sort like the number.
     cost: u64,
     position: u32,
     version: u32,
@@ -76,10 +74,10 @@ struct Clipper<'a> {
     previous: Vec<u32>,
     version: Vec<u32>,
     alive: Vec<bool>,
-    /// Known normal across the edge that starts at a position.
+    /// Normal of the known triangle across the edge that starts at each position.
     normals: Vec<Option<Vec3>>,
-    /// Sum of the normals of the rim edges that the edge from a position stands for: unlike the
-    /// normals of successive ears it does not drift.
+    /// Sum of the normals of the rim edges that the edge from each position replaces. Unlike the normals of successive
+    /// ears, it does not drift.
     facing: Vec<Vec3>,
     /// Direction of the polygon's area vector.
     axis: Vec3,
@@ -120,7 +118,7 @@ impl<'a> Clipper<'a> {
         [self.previous[i], position, self.next[i]].map(|p| &self.polygon.points[p as usize])
     }
 
-    /// The ear's place in the queue; `None` when it must not be cut as things stand.
+    /// The queue entry of the ear; `None` if it must not be cut now.
     fn entry(&self, position: u32) -> Option<Ear> {
         let i = position as usize;
         let (before, after) = (self.previous[i] as usize, self.next[i] as usize);
@@ -173,14 +171,14 @@ impl<'a> Clipper<'a> {
             job.tick(30)?;
             self.cut(entry.position);
             left -= 1;
-            for neighbour in [before, after] {
-                self.queue.extend(self.entry(neighbour).map(Reverse));
+            for neighbor in [before, after] {
+                self.queue.extend(self.entry(neighbor).map(Reverse));
             }
         }
         Ok(())
     }
 
-    /// Cuts the ear at `position` and makes its neighbours' places in the queue stale.
+    /// Cuts the ear at `position`, which makes the queue entries of its neighbors stale.
     fn cut(&mut self, position: u32) {
         let i = position as usize;
         let (before, after) = (self.previous[i], self.next[i]);
@@ -212,7 +210,7 @@ impl<'a> Clipper<'a> {
     }
 }
 
-/// For each edge the known normal of the last edge up to it that has one; `axis` where none has.
+/// For each edge, its known normal, or that of the last edge before it that has one; `axis` if no edge has one.
 fn guess_normals(polygon: &HolePolygon<'_>, axis: Vec3) -> Vec<Vec3> {
     let known = polygon.outside_normals;
     let mut last = known.iter().rev().copied().find_map(|n| n).unwrap_or(axis);

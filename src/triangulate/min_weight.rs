@@ -1,20 +1,17 @@
 //! Minimum-weight triangulation of a polygon in space by dynamic programming.
 //!
-//! Based on: Gill Barequet, Micha Sharir, "Filling gaps in the boundary of a polyhedron",
-//! Computer Aided Geometric Design 12 (1995), for the recurrence; Peter Liepa, "Filling holes in
-//! meshes", Symposium on Geometry Processing (2003), for the weight: first the largest dihedral
-//! angle, counted across the rim too, then the area.
+//! The weight of a triangulation is its largest dihedral angle, with those across the rim, and, among equal ones, its
+//! area. The chord `(i, j)` cuts off the positions `i..=j`. The weight of the chord is the minimum over all apexes `k`
+//! between `i` and `j`, of the weights of `(i, k)` and `(k, j)` together with the triangle `(i, k, j)`. The dihedral
+//! angles of this triangle are those to the best triangles at `(i, k)` and `(k, j)`.
 //!
-//! The chord `(i, j)` cuts off the positions `i..=j`. Its weight is the lexicographic minimum over
-//! all apexes `k` between of the weights of `(i, k)` and `(k, j)` and of the triangle `(i, k, j)`,
-//! whose dihedral angles are taken to the triangles that *won* at `(i, k)` and `(k, j)`.
+//! Sources: Gill Barequet, Micha Sharir, "Filling gaps in the boundary of a polyhedron", Computer Aided Geometric
+//! Design 12 (1995), for the recurrence; Peter Liepa, "Filling holes in meshes", Symposium on Geometry Processing
+//! (2003), for the weight.
 //!
-//! Time O(m³), with a small constant because an apex is dropped as soon as the angles below it
-//! exceed the best; memory 22·m² bytes.
-//!
-//! Not guaranteed: the least possible largest angle (a worse winner at a chord may suit the triangle
-//! above better; the recurrence, in every implementation, does not look back) and freedom from
-//! self-intersection.
+//! Cost: time O(m³), with a small constant, because an apex is rejected as soon as its angles exceed the best; memory
+//! 22·m² bytes. Not guaranteed: the smallest possible largest angle, since the recurrence keeps only the best triangle
+//! of each chord, and a worse one may fit better to the triangle above; freedom from self-intersection.
 
 use super::polygon::{ChordRules, FlatnessTest, HolePolygon};
 use crate::error::{Error, ErrorKind, Result};
@@ -22,28 +19,28 @@ use crate::job::Job;
 use crate::math::Vec3;
 use std::collections::BTreeSet;
 
-/// Largest polygon that is searched: 90 MB of tables and a few seconds.
+/// Upper bound on the vertices of a polygon that is searched. It takes 90 MB of tables and a few seconds.
 pub(crate) const MAX_SEARCHED: usize = 2048;
-/// Searches that may be spent on telling apart chords that join the same two vertices.
+/// Upper bound on the searches for a polygon in which different chords can join the same two vertices.
 const MAX_SEARCHES: usize = 64;
-/// Normal where no triangle is known. Every comparison with an angle to it is false.
+/// The normal where no triangle is known. All comparisons with NaN are false.
 const NO_NORMAL: Vec3 = Vec3::new(f64::NAN, f64::NAN, f64::NAN);
-/// Measure of a chord that cannot be used.
+/// The measure of a chord that cannot be used.
 const IMPOSSIBLE: f64 = f64::INFINITY;
 
 /// Finds the triangulation, as triangles of positions oriented like the polygon.
 ///
 /// # Errors
-/// `Limit` beyond [`MAX_SEARCHED`] vertices; `Geometry` or `Topology` when every triangulation has a
-/// triangle without area or an edge that must not arise; `Cancelled`.
+/// `Limit` for more than [`MAX_SEARCHED`] vertices; `Geometry` or `Topology` when every triangulation has a triangle
+/// without area or an edge that is not allowed; `Cancelled`.
 pub(super) fn search(polygon: &HolePolygon<'_>, job: &Job<'_>) -> Result<Vec<[u32; 3]>> {
     let len = polygon.len();
     if len > MAX_SEARCHED {
         let message = format!("the minimum-weight search takes {MAX_SEARCHED} vertices, not {len}");
-        return Err(Error::new(ErrorKind::Limit, message));
+        return Err(Error::limit(message));
     }
     let rules = ChordRules::new(polygon);
-    // Depth first over the ways to drop one of two chords that join the same vertices.
+    // If two chords join the same vertices, one of them is forbidden. The choices are searched depth first.
     let mut pending = vec![BTreeSet::new()];
     let mut first_failure = None;
     for _ in 0..MAX_SEARCHES {
@@ -64,7 +61,7 @@ pub(super) fn search(polygon: &HolePolygon<'_>, job: &Job<'_>) -> Result<Vec<[u3
     }
     Err(first_failure.unwrap_or_else(|| {
         let message = "no triangulation was found that joins no two vertices twice";
-        Error::new(ErrorKind::Topology, message)
+        Error::topology(message)
     }))
 }
 
@@ -73,7 +70,7 @@ fn find_twin_chords(rules: &ChordRules<'_>, triangles: &[[u32; 3]]) -> Option<[(
     if !rules.has_repeated_vertices() {
         return None;
     }
-    // Each triangle but the one at the closing edge is listed as (i, k, j) below its own chord (i, j).
+    // Each triangle (i, k, j) belongs to the chord (i, j), except the first one, at the closing edge.
     let mut chords: Vec<_> = triangles[1..]
         .iter()
         .map(|t| (t[0] as usize, t[2] as usize))
@@ -86,12 +83,12 @@ fn find_twin_chords(rules: &ChordRules<'_>, triangles: &[[u32; 3]]) -> Option<[(
         .map(|w| [w[0].1, w[1].1])
 }
 
-/// The winners at all chords `(i, j)`, `i < j`, row by row: of row `i` first `(i, i + 1)`, which is
-/// an edge of the polygon.
+/// The best triangles at all chords `(i, j)`, `i < j`, row by row. Row `i` starts with `(i, i + 1)`, which is an edge
+/// of the polygon.
 struct WeightTable {
     len: usize,
-    /// Largest angle below and at the chord, as the squared distance of the two unit normals:
-    /// it grows with the angle up to π and, unlike the cosine, keeps its digits at small angles.
+    /// Largest angle at the chord and below it, as the squared distance of the two unit normals. It increases with the
+    /// angle and, unlike the cosine, is accurate for small angles.
     measure: Vec<f64>,
     area: Vec<f64>,
     normal: Vec<Vec3>,
@@ -115,7 +112,7 @@ impl WeightTable {
     }
 }
 
-/// The winners at the chords `(i, j)` of one `j`: the table's column, contiguous.
+/// The best triangles at the chords `(i, j)` of one `j`: a column of the table, contiguous in memory.
 struct Column {
     measure: Vec<f64>,
     area: Vec<f64>,
@@ -132,7 +129,7 @@ struct Winner {
     apex: usize,
 }
 
-/// All triangles at one chord; apexes count from the first position after `i`.
+/// All triangles at one chord. Apexes are numbered from the first position after `i`.
 struct Candidates<'t> {
     points: &'t [Vec3],
     origin: &'t Vec3,
@@ -197,7 +194,7 @@ fn solve(
                     ),
                     outside: if closing { outside(j) } else { NO_NORMAL },
                 };
-                // The neighbouring chords' winners are likely to be good: they set a low bound.
+                // The apexes of neighboring chords are probably good, so they give a low first bound.
                 let likely = [
                     column.apex[i + 1] as usize,
                     table.apex[inner.end - 1] as usize,
@@ -230,17 +227,17 @@ fn solve(
         return Err(if any_barred {
             let message = "every triangulation of the hole has an edge that already exists, \
                            or a triangle without area";
-            Error::new(ErrorKind::Topology, message)
+            Error::topology(message)
         } else {
             let message = "every triangulation of the hole has a triangle without area";
-            Error::new(ErrorKind::Geometry, message)
+            Error::geometry(message)
         });
     }
     Ok(trace(&table))
 }
 
 impl Candidates<'_> {
-    /// The triangle of least weight, the one of the lowest apex among equals.
+    /// The triangle of least weight; among equal ones, that with the lowest apex.
     fn best(&self, likely: [usize; 2]) -> Option<Winner> {
         let none = Winner {
             measure: f64::MAX,
@@ -262,7 +259,7 @@ impl Candidates<'_> {
         (winner.apex != usize::MAX).then_some(winner)
     }
 
-    /// Takes the triangle with apex `k` as the winner if it is better.
+    /// Takes the triangle with apex `k` as the best one if it is better.
     #[inline(always)]
     fn consider(&self, k: usize, winner: &mut Winner) {
         let area_below = self.left.1[k] + self.right.1[k];
@@ -281,8 +278,8 @@ impl Candidates<'_> {
         }
         let doubled_area = doubled_area_sq.sqrt();
         let normal = doubled / doubled_area;
-        for neighbour in [&self.left.2[k], &self.right.2[k], &self.outside] {
-            let distance_sq = (normal - neighbour).norm_squared();
+        for neighbor in [&self.left.2[k], &self.right.2[k], &self.outside] {
+            let distance_sq = (normal - neighbor).norm_squared();
             if distance_sq > measure {
                 measure = distance_sq;
             }
@@ -300,7 +297,7 @@ impl Candidates<'_> {
     }
 }
 
-/// Lists the winning triangles `(i, k, j)`, `i < k < j`, from the closing edge inwards.
+/// Lists the triangles `(i, k, j)`, `i < k < j`, of the best triangulation, from the closing edge inward.
 fn trace(table: &WeightTable) -> Vec<[u32; 3]> {
     let mut triangles = Vec::with_capacity(table.len - 2);
     let mut chords = vec![(0, table.len - 1)];

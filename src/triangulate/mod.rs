@@ -1,4 +1,7 @@
-//! Triangulates the polygon of a hole, in space or in the plane, with no new vertices on it.
+//! Triangulates the polygon of a hole, in space or in the plane, without new vertices on the polygon.
+//!
+//! In space, `ear_clip` reduces a large polygon, and `min_weight` finds the minimum-weight triangulation of the rest.
+//! In the plane, `planar` makes a constrained Delaunay triangulation, and `simple_polygon` tests whether it can.
 
 mod ear_clip;
 mod min_weight;
@@ -16,15 +19,15 @@ use crate::math::Vec3;
 use ear_clip::Clipped;
 use polygon::ChordRules;
 
-/// How much work [`triangulate`] may spend.
+/// Limits on the work of [`triangulate`].
 #[derive(Clone, Copy)]
 pub(crate) struct TriangulationOptions<'a> {
     /// Polygons of up to this many vertices are searched for the minimum-weight triangulation, in
     /// cubic time (see [`min_weight::MAX_SEARCHED`]); larger ones lose their cheapest ears first.
     pub(crate) exact_limit: usize,
-    /// Vertices that ear clipping leaves to the search.
+    /// Number of vertices that ear clipping leaves to the search.
     pub(crate) ear_remainder: usize,
-    /// Ends the work with a `Cancelled` error when it is stopped.
+    /// The job, which can be cancelled.
     pub(crate) job: &'a Job<'a>,
 }
 
@@ -44,15 +47,15 @@ impl Default for TriangulationOptions<'_> {
 pub(crate) struct Triangulation {
     /// Positions in the polygon, oriented like it.
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// What [`weight_of`] says of them.
+    /// Their weight, see [`weight_of`].
     pub(crate) weight: Weight,
 }
 
-/// Times that a remainder which the search rejects is doubled, giving ears back to the search.
+/// Upper bound on how often `ear_remainder` is doubled, if the search finds no triangulation of the remainder.
 const MAX_REMAINDER_DOUBLINGS: usize = 2;
 
-/// Spans `polygon` with `m - 2` triangles that have an area, use each polygon edge once, and create
-/// no edge that is blocked or arises twice.
+/// Triangulates `polygon` with `m - 2` triangles. All have an area. Each polygon edge is used once. No edge is made
+/// that is blocked or exists twice.
 ///
 /// # Errors
 /// `InvalidInput` when the polygon has fewer than three vertices, lists of unequal length,
@@ -100,7 +103,7 @@ fn clip_then_search(
             break; // Clipping ended for want of ears: it would leave the same again.
         }
     }
-    Err(failure.unwrap_or_else(|| Error::new(ErrorKind::Limit, "no work was allowed")))
+    Err(failure.unwrap_or_else(|| Error::limit("no work was allowed")))
 }
 
 fn search_rest(

@@ -1,32 +1,31 @@
-//! Triangulates a simple polygon in the plane, with given points inside it, by a constrained Delaunay
-//! triangulation.
+//! Constrained Delaunay triangulation of a simple polygon in the plane, with given points inside it.
 //!
-//! Based on: L. P. Chew, "Constrained Delaunay triangulations", Algorithmica 4, 1989; the triangulation is
-//! that of the crate `spade`. Among all triangulations of the polygon with these vertices it has the largest
-//! smallest angle. No vertex is added, on the polygon or elsewhere.
+//! Among all triangulations of the polygon with these vertices, it has the largest smallest angle. No vertex is added.
 //!
-//! About O(n log n) for `n` vertices that lie near the ones before them in the list; O(n^1.5) otherwise.
-//! Not guaranteed: the same triangles in another numbering where four vertices lie on a circle.
+//! Source: L. P. Chew, "Constrained Delaunay triangulations", Algorithmica 4, 1989; the implementation is the crate
+//! `spade`. Cost: about O(n log n) for `n` vertices in an order in which successive ones are near, O(n^1.5) otherwise.
+//! Not guaranteed: if four vertices lie on a circle, another numbering can give other triangles.
 
 use super::simple_polygon::{Point2, find_contact, is_counter_clockwise};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::job::Job;
 use spade::handles::{FixedFaceHandle, FixedVertexHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, Triangulation, mitigate_underflow};
 
 type Delaunay = ConstrainedDelaunayTriangulation<spade::Point2<f64>>;
 
-/// Triangulates what lies between an outer polygon, the first, and polygons inside of it, which turn the other way,
-/// with the points of `interior` as further vertices. Polygons are closed; the outer one may turn either way.
+/// Triangulates the region between an outer polygon, the first one, and polygons inside it. The points of `interior`
+/// are further vertices. Polygons are closed. The outer one may have either orientation; inner ones have the opposite
+/// orientation.
 ///
-/// Returns triangles that index the vertices of all polygons, one after the other, and then the interior points, each
-/// turning like the outer polygon; every polygon edge belongs to exactly one of them. There are `m - 2 + 2 k + 2 h` for
-/// `m` polygon vertices, `k` interior points and `h` inner polygons.
+/// The triangles index the vertices of all polygons, one polygon after the other, and then the interior points. They
+/// have the orientation of the outer polygon. Every polygon edge belongs to exactly one triangle. There are `m - 2 +
+/// 2 k + 2 h` triangles for `m` polygon vertices, `k` interior points and `h` inner polygons.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidInput`] for a coordinate that is not finite or exceeds 10^60; [`ErrorKind::Geometry`] when
+/// [`crate::ErrorKind::InvalidInput`] for a coordinate that is not finite or exceeds 10^60; [`crate::ErrorKind::Geometry`] when
 /// a polygon is not simple (decided exactly), two polygons meet or one lies outside the first, or an interior point
-/// lies outside, on a polygon, or on another interior point; [`ErrorKind::Cancelled`].
+/// lies outside, on a polygon, or on another interior point; [`crate::ErrorKind::Cancelled`].
 pub(crate) fn triangulate_planar_region(
     polygons: &[impl AsRef<[Point2]>],
     interior: &[Point2],
@@ -36,7 +35,7 @@ pub(crate) fn triangulate_planar_region(
         .iter()
         .flat_map(|polygon| polygon.as_ref())
         .chain(interior)
-        // Coordinates next to zero would make the predicates inexact.
+        // Coordinates that are nearly zero would make the predicates inexact.
         .map(|p| mitigate_underflow(spade::Point2::new(p[0], p[1])))
         .collect();
     if !points.iter().all(|p| p.x.is_finite() && p.y.is_finite()) {
@@ -76,7 +75,7 @@ pub(crate) fn triangulate_planar_region(
     if delaunay.num_vertices() < m + k {
         return Err(geometry("two points of the plane coincide".to_owned()));
     }
-    // With the inside on the left.
+    // The inside is on the left of each edge.
     let edges: Vec<(FixedVertexHandle, FixedVertexHandle)> = edges
         .into_iter()
         .map(|(a, b)| if is_outer_ccw { (a, b) } else { (b, a) })
@@ -90,8 +89,8 @@ pub(crate) fn triangulate_planar_region(
     }
     job.ask()?;
     let triangles = inner_triangles(&delaunay, &edges, is_outer_ccw);
-    // A constraint through an interior point is cut in two there, so it leads no fill inside; a point
-    // outside adds no triangle inside.
+    // The number is wrong if an interior point lies on a constraint, which is then cut, or outside, where it adds no
+    // triangle.
     if triangles.len() + 2 != m + 2 * k + 2 * (polygons.len() - 1) {
         return Err(geometry(
             "a point to be inside the polygon lies outside or on it".to_owned(),
@@ -100,7 +99,8 @@ pub(crate) fn triangulate_planar_region(
     Ok(triangles)
 }
 
-/// The triangles inside the rim, found inwards from its edges, which have it on their left. Vertices have the numbers of their insertion.
+/// The triangles inside the rim, found by a walk inward from its edges, which have the inside on their left. Vertices
+/// are numbered in the order of insertion.
 fn inner_triangles(
     delaunay: &Delaunay,
     edges: &[(FixedVertexHandle, FixedVertexHandle)],
@@ -143,17 +143,18 @@ fn inner_triangles(
 }
 
 fn invalid(message: String) -> Error {
-    Error::new(ErrorKind::InvalidInput, message)
+    Error::invalid(message)
 }
 
 fn geometry(message: String) -> Error {
-    Error::new(ErrorKind::Geometry, message)
+    Error::geometry(message)
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::simple_polygon::turn;
     use super::*;
+    use crate::error::ErrorKind;
     use proptest::prelude::*;
     use robust::{Coord, incircle};
     use std::f64::consts::TAU;

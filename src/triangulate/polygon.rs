@@ -1,17 +1,18 @@
-//! The polygon that a hole triangulation spans, and the measure of a finished triangulation.
+//! The polygon of a hole in space, the rules for its triangulations, and their weight.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::math::{Vec3, cross_normal, unit};
 
-/// Sizes outside `1 / EXTENT_LIMIT ..= EXTENT_LIMIT` would overflow or vanish when squared twice.
+/// Upper bound on the size of a polygon; the lower bound is `1 / EXTENT_LIMIT`. Outside this range, the fourth power
+/// of a length would overflow or underflow.
 const EXTENT_LIMIT: f64 = 1e75;
-/// A triangle whose height is below this share of its longest edge has a normal made of rounding
-/// errors: the cross product of its edges keeps fewer than four digits.
+/// A triangle is flat if its height, divided by its longest edge, is below this. The cross product of its edges then
+/// has fewer than four correct digits.
 const FLAT_SHARE: f64 = 1e-12;
-/// Height, in units in the last place of the largest coordinate, that storing a vertex can invent.
+/// Height of a triangle that rounding its coordinates can cause, divided by the largest coordinate.
 const COORDINATE_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// A closed polygon in space and its surroundings, in the orientation of the patch to come.
+/// A closed polygon in space and its surroundings, in the orientation of the patch.
 ///
 /// Edge `i` runs from position `i` to position `i + 1` (cyclically). The patch lies to its left,
 /// so the known mesh triangle there, if any, runs along it from `i + 1` to `i`.
@@ -22,8 +23,8 @@ pub(crate) struct HolePolygon<'a> {
     /// Unit normal of the known triangle at each edge, oriented like the patch; `None` when there
     /// is no such triangle or it has no area.
     pub(crate) outside_normals: &'a [Option<Vec3>],
-    /// The mesh vertex at each position. A vertex may occupy several positions (bridged islands,
-    /// pinched rims); no triangle may touch it twice and no edge between two vertices may arise twice.
+    /// The mesh vertex at each position. A vertex may occupy several positions (bridged islands, pinched rims). No
+    /// triangle may have it twice, and no edge between two vertices may be made twice.
     pub(crate) vertex_ids: &'a [u32],
     /// Whether the chord between two positions, the lower one first, already is a mesh edge and must
     /// not be created.
@@ -36,10 +37,10 @@ impl HolePolygon<'_> {
         self.points.len()
     }
 
-    /// Checks what the other methods rely on.
+    /// Checks the conditions that all functions of this module need.
     pub(super) fn validate(&self) -> Result<()> {
         let len = self.len();
-        let invalid = |message: String| Err(Error::new(ErrorKind::InvalidInput, message));
+        let invalid = |message: String| Err(Error::invalid(message));
         if len < 3 {
             return invalid(format!(
                 "a hole polygon of {len} vertices cannot be triangulated"
@@ -51,10 +52,7 @@ impl HolePolygon<'_> {
             ));
         }
         if u32::try_from(len).is_err() {
-            return Err(Error::new(
-                ErrorKind::Limit,
-                format!("{len} vertices in one polygon"),
-            ));
+            return Err(Error::limit(format!("{len} vertices in one polygon")));
         }
         for i in 0..len {
             let next = (i + 1) % len;
@@ -69,20 +67,14 @@ impl HolePolygon<'_> {
         let (low, high) = bounds(self.points);
         let extent = (high - low).amax();
         if extent == 0.0 {
-            return Err(Error::new(
-                ErrorKind::Geometry,
-                "all vertices of the hole coincide",
-            ));
+            return Err(Error::geometry("all vertices of the hole coincide"));
         }
         if !(1.0 / EXTENT_LIMIT..=EXTENT_LIMIT).contains(&extent) {
-            return Err(Error::new(
-                ErrorKind::Geometry,
-                format!("the hole has size {extent:e}"),
-            ));
+            return Err(Error::geometry(format!("the hole has size {extent:e}")));
         }
         if self.is_collinear() {
             let message = "all vertices of the hole lie on one line";
-            return Err(Error::new(ErrorKind::Geometry, message));
+            return Err(Error::geometry(message));
         }
         Ok(())
     }
@@ -111,11 +103,11 @@ fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
     (low, high)
 }
 
-/// Tells triangles that have a normal from those whose height is lost in rounding.
+/// Tests whether a triangle is flat, that is, whether its normal is only rounding error.
 #[derive(Clone, Copy)]
 pub(super) struct FlatnessTest {
     height_floor: f64,
-    /// Squared doubled area from which on no triangle of the polygon can be flat.
+    /// Square of the doubled area above which no triangle of the polygon is flat.
     surely_not_flat: f64,
 }
 
@@ -148,11 +140,11 @@ impl FlatnessTest {
     }
 }
 
-/// The rules which chords a triangulation of a polygon may use on their own; that no two chords
-/// join the same two vertices is left to the caller.
+/// The rules that say which single chords a triangulation of a polygon may use. The caller must check that no two
+/// chords join the same two vertices.
 pub(super) struct ChordRules<'a> {
     polygon: HolePolygon<'a>,
-    /// Whether the vertex at a position occupies another position, too.
+    /// Whether the vertex at each position occupies another position, too.
     repeated: Vec<bool>,
     /// Polygon edges at repeated vertices as sorted vertex pairs.
     edges: Vec<(u32, u32)>,
@@ -181,7 +173,7 @@ impl<'a> ChordRules<'a> {
         rules
     }
 
-    /// Whether the chord between positions `i` and `j`, which are not neighbours, may be created.
+    /// Whether the chord between the positions `i` and `j`, which are not neighbors, is allowed.
     pub(super) fn admit(&self, i: usize, j: usize) -> bool {
         self.polygon.vertex_ids[i] != self.polygon.vertex_ids[j]
             && self
@@ -202,7 +194,7 @@ impl<'a> ChordRules<'a> {
     }
 }
 
-/// What the minimum-weight triangulation minimises, in lexicographic order.
+/// The weight that the minimum-weight triangulation minimizes, in lexicographic order.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub(crate) struct Weight {
     /// Largest angle in radians between the normals of two triangles that share an edge, the known
@@ -212,13 +204,13 @@ pub(crate) struct Weight {
     pub(crate) area: f64,
 }
 
-/// Weighs a triangulation of `polygon` given by positions, independently of how it was found.
+/// The weight of a triangulation of `polygon`, whose triangles are given by positions.
 ///
 /// # Errors
 /// `Topology` when `triangles` is not a triangulation: when they do not use every edge of the
 /// polygon once in its direction and every other edge once in each.
 pub(crate) fn weight_of(polygon: &HolePolygon<'_>, triangles: &[[u32; 3]]) -> Result<Weight> {
-    let broken = |message: String| Err(Error::new(ErrorKind::Topology, message));
+    let broken = |message: String| Err(Error::topology(message));
     let len = polygon.len();
     if triangles.len() + 2 != len {
         return broken(format!(
@@ -231,7 +223,7 @@ pub(crate) fn weight_of(polygon: &HolePolygon<'_>, triangles: &[[u32; 3]]) -> Re
     }
     let corner = |t: &[u32; 3], c: usize| &polygon.points[t[c] as usize];
     let mut area = 0.0;
-    // Each side of a triangle as (lower position, higher position, whether it descends, triangle).
+    // The sides of triangles as (lower position, higher position, whether the side descends, triangle).
     let mut sides = Vec::with_capacity(3 * triangles.len());
     for (index, t) in triangles.iter().enumerate() {
         area += 0.5 * cross_normal(corner(t, 0), corner(t, 1), corner(t, 2)).norm();
@@ -282,6 +274,7 @@ fn angle(a: &Vec3, b: &Vec3) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::ErrorKind;
 
     const FREE: &dyn Fn(usize, usize) -> bool = &|_, _| false;
 

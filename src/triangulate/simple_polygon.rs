@@ -1,10 +1,10 @@
-//! Whether a closed polygon in the plane is simple, and which way it turns: decided exactly.
+//! Exact tests on closed polygons in the plane: whether a polygon is simple, and its orientation.
 //!
-//! Based on: J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
-//! predicates", Discrete & Computational Geometry 18(3), 1997 (the orientation test of the crate `robust`).
+//! Edges are sorted by their ranges of x, and those with overlapping ranges are tested by exact predicates.
 //!
-//! The signs are those of exact arithmetic unless a product of two coordinate differences leaves the range of
-//! double precision; callers keep coordinates in it.
+//! Source: J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates",
+//! Discrete & Computational Geometry 18(3), 1997 (the orientation test of the crate `robust`). The predicates are exact
+//! unless a product of two coordinate differences over- or underflows; callers must avoid that.
 
 use crate::error::Result;
 use crate::job::Job;
@@ -13,14 +13,14 @@ use robust::{Coord, orient2d};
 /// A point of the plane.
 pub(crate) type Point2 = [f64; 2];
 
-/// Two edges of the closed `polygon`, lower first, that share a point which they should not: crossing or
-/// touching ones, successive ones that run back over each other, an edge without length. `None` for a simple
-/// polygon, which has at least three vertices. Edge `i` begins at vertex `i`.
+/// Finds two edges of the closed `polygon` that share a point and should not, the lower index first: two edges that
+/// cross or touch, successive edges that overlap, or an edge without length. `None` for a simple polygon, which has
+/// at least three vertices. Edge `i` begins at vertex `i`.
 ///
 /// All coordinates must be finite.
 ///
 /// # Errors
-/// `Cancelled` when the job is stopped.
+/// `Cancelled` when the job is cancelled.
 ///
 /// # Complexity
 /// O(m log m) and one test for each pair of edges whose ranges of x overlap: about m^1.5 pairs for a polygon
@@ -73,7 +73,7 @@ pub(crate) fn is_counter_clockwise(polygon: &[Point2]) -> bool {
         let (p, q) = (polygon[i], polygon[j]);
         p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]))
     });
-    // The polygon is convex at its lowest vertex, and not straight: that would be an edge run back.
+    // The polygon is convex at its lowest vertex. It is not straight there, because successive edges do not overlap.
     lowest.is_some_and(|i| turn(polygon[(i + m - 1) % m], polygon[i], polygon[(i + 1) % m]) > 0.0)
 }
 
@@ -83,13 +83,14 @@ pub(crate) fn turn(a: Point2, b: Point2, c: Point2) -> f64 {
     orient2d(coord(a), coord(b), coord(c))
 }
 
-/// Whether the edge from `b` to `c` lies over the one from `a` to `b`.
+/// Whether the edge from `b` to `c` overlaps the edge from `a` to `b`.
 fn runs_back(a: Point2, b: Point2, c: Point2) -> bool {
     if turn(a, b, c) != 0.0 {
         return false;
     }
-    // On one line: on the same side of `b`, in the coordinate in which the line extends.
-    let k = usize::from(a[0] == b[0]);
+    // The edges are on one line. They overlap if `a` and `c` are on the same side of `b`, in a coordinate in which the
+    // line extends.
+    let k = if a[0] == b[0] { 1 } else { 0 };
     (a[k] < b[k]) == (c[k] < b[k])
 }
 

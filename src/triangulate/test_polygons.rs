@@ -1,4 +1,4 @@
-//! Rims for the tests of this module.
+//! Polygons of holes for the tests of this module.
 
 use super::polygon::HolePolygon;
 use crate::math::{Vec3, cross_normal, unit};
@@ -47,7 +47,7 @@ impl Rim {
         Self::planar(&angles.map(|a| [a.cos(), a.sin()]).collect::<Vec<_>>())
     }
 
-    /// A circle whose height oscillates, in a surface that slopes outwards.
+    /// A circle whose height oscillates, in a surface that slopes outward.
     pub(super) fn wavy(len: usize, lobes: u32, height: f64) -> Self {
         let at = |i: usize, radius: f64| {
             let a = TAU * i as f64 / len as f64;
@@ -59,7 +59,7 @@ impl Rim {
         Self::new(points, (0..len).map(|i| Some(normal(i))).collect())
     }
 
-    /// A ribbon's rim that climbs a helix and returns beside it; no neighbours known.
+    /// A ribbon's rim that climbs a helix and returns beside it; no neighbors known.
     pub(super) fn helix(len: usize) -> Self {
         let half = len / 2;
         let at = |k: usize, radius: f64| {
@@ -73,7 +73,7 @@ impl Rim {
         Self::new(points, vec![None; len])
     }
 
-    /// A closed curve that runs three times round an axis; no neighbours known.
+    /// A closed curve that runs three times round an axis; no neighbors known.
     pub(super) fn wound(len: usize) -> Self {
         let at = |k: usize| {
             let b = TAU * k as f64 / len as f64;

@@ -8,7 +8,7 @@ mod reader;
 mod self_tests;
 
 use reader::{Uses, tokens, uses};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -21,7 +21,8 @@ const RULES: &[(&str, &[&str])] = &[
     ("error", &[]),
     ("job", &["error"]),
     ("math", &["error", "job"]),
-    // Who is whose neighbour: no coordinates.
+    // Who is whose neighbor: no coordinates.
+    ("mesh::halfedge", &[]),
     ("mesh::connectivity", &CONNECTIVITY),
     ("mesh::linking", &CONNECTIVITY),
     ("mesh::pairing", &CONNECTIVITY),
@@ -31,15 +32,20 @@ const RULES: &[(&str, &[&str])] = &[
     ("mesh", &["error", "job", "math"]),
     ("boundary", &["error", "job", "math", "mesh"]),
     ("quality", &["error", "job", "math", "mesh"]),
-    ("patch", &["error", "job", "math", "mesh"]),
+    // What a method is given, in coordinates and indices of its own.
+    ("surroundings", &["error", "job", "math"]),
+    ("hole", &["math", "surroundings"]),
+    ("patch", &["error", "job", "math", "mesh", "hole"]),
     // The triangulation of a patch: no coordinates.
     ("patch::mesh", &["error", "mesh", "patch::edit"]),
     ("patch::edit", &["patch::mesh"]),
     // What makes a patch knows nothing of loops, of the pipeline, of its judges or of each other.
     ("triangulate", &["error", "job", "math", "mesh", "patch"]),
     ("refine", &["error", "job", "math", "mesh", "patch"]),
-    ("fair", &["error", "job", "math", "mesh", "patch"]),
-    ("surroundings", &["error", "job", "math", "mesh", "patch"]),
+    (
+        "fair",
+        &["error", "job", "math", "mesh", "patch", "surroundings"],
+    ),
     // What users choose: plain values, and the machinery that gives them names.
     ("options::entry", &["error"]),
     ("options", &["error", "methods::method"]),
@@ -53,6 +59,7 @@ const RULES: &[(&str, &[&str])] = &[
             "mesh",
             "quality",
             "patch",
+            "hole",
             "surroundings",
             "options",
             "triangulate",
@@ -63,7 +70,17 @@ const RULES: &[(&str, &[&str])] = &[
     (
         "fill",
         &[
-            "error", "job", "math", "mesh", "boundary", "quality", "patch", "options", "methods",
+            "error",
+            "job",
+            "math",
+            "mesh",
+            "boundary",
+            "quality",
+            "patch",
+            "hole",
+            "surroundings",
+            "options",
+            "methods",
             "fair",
         ],
     ),
@@ -95,10 +112,11 @@ const RULES: &[(&str, &[&str])] = &[
 ];
 
 /// What connectivity consists of.
-const CONNECTIVITY: [&str; 7] = [
+const CONNECTIVITY: [&str; 8] = [
     "error",
     "mesh::connectivity",
     "mesh::defects",
+    "mesh::halfedge",
     "mesh::linking",
     "mesh::pairing",
     "mesh::rim_table",
@@ -252,6 +270,39 @@ fn library() -> (Root, Vec<(Name, SourceFile)>) {
     (root, library)
 }
 
+/// For each file of the library the others that it uses; `files` are their modules, and paths into what is no file
+/// count for the file above it.
+fn used_files(files: &[Name], uses: &[Uses]) -> Vec<Vec<usize>> {
+    let file_of = |path: &[String]| {
+        let above = (1..=path.len()).rev().map(|length| &path[..length]);
+        above
+            .into_iter()
+            .find_map(|module| files.iter().position(|file| file == module))
+    };
+    let used = uses.iter().enumerate().map(|(user, uses)| {
+        let paths = uses.paths.iter();
+        paths
+            .filter_map(|(_, path)| file_of(path).filter(|&file| file != user))
+            .collect()
+    });
+    used.collect()
+}
+
+/// Whether `file` uses itself through others.
+fn is_on_circle(file: usize, used: &[Vec<usize>]) -> bool {
+    let mut reached = used[file].clone();
+    let mut at = 0;
+    while at < reached.len() {
+        for &other in &used[reached[at]] {
+            if !reached.contains(&other) {
+                reached.push(other);
+            }
+        }
+        at += 1;
+    }
+    reached.contains(&file)
+}
+
 fn assert_none(complaints: &str) {
     assert!(complaints.is_empty(), "\n{complaints}");
 }
@@ -285,6 +336,38 @@ fn modules_use_only_what_lies_below_them() {
         count > 100,
         "only {count} paths were found: they are not read"
     );
+}
+
+#[test]
+fn no_files_use_each_other_in_a_circle() {
+    let (root, library) = library();
+    let (files, mut read): (Vec<Name>, Vec<Uses>) = library
+        .iter()
+        .filter(|(module, _)| !module.is_empty())
+        .map(|(module, file)| (module.clone(), uses(module, &file.text)))
+        .unzip();
+    let tests: Vec<Name> = read.iter().flat_map(|u| u.test_modules.clone()).collect();
+    for (file, uses) in files.iter().zip(&mut read) {
+        if tests.iter().any(|module| file.starts_with(module)) {
+            uses.paths.clear();
+        }
+        for (_, path) in &mut uses.paths {
+            if let Some(place) = path.first().and_then(|first| root.exports.get(first)) {
+                path.clone_from(place);
+            }
+        }
+    }
+    let used = used_files(&files, &read);
+    let circles: Vec<usize> = (0..files.len())
+        .filter(|&file| is_on_circle(file, &used))
+        .collect();
+    let mut complaints = String::new();
+    for &file in &circles {
+        let others = used[file].iter().filter(|other| circles.contains(other));
+        let others: BTreeSet<String> = others.map(|&other| files[other].join("::")).collect();
+        let _ = writeln!(complaints, "{} uses {others:?}", files[file].join("::"));
+    }
+    assert_none(&complaints);
 }
 
 #[test]

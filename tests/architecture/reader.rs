@@ -96,6 +96,10 @@ pub(crate) struct Uses {
 struct Reader<'a> {
     tokens: Vec<&'a str>,
     at: usize,
+    /// The module of the file.
+    file: Name,
+    /// The modules in other files that the file declares.
+    children: Vec<&'a str>,
     /// The module that the reader is in.
     module: Name,
     uses: Uses,
@@ -103,9 +107,13 @@ struct Reader<'a> {
 
 /// Collects what `source`, the file of `module`, uses outside of tests.
 pub(crate) fn uses(module: &[String], source: &str) -> Uses {
+    let tokens = tokens(source);
+    let children = tokens.windows(3).filter(|w| w[0] == "mod" && w[2] == ";");
     let mut reader = Reader {
-        tokens: tokens(source),
+        children: children.map(|w| w[1]).collect(),
+        tokens,
         at: 0,
+        file: module.to_vec(),
         module: module.to_vec(),
         uses: Uses::default(),
     };
@@ -152,9 +160,19 @@ impl<'a> Reader<'a> {
                     let path = self.path();
                     self.record(&path);
                 }
+                // What follows `::` belongs to the path before it.
+                "::" => self.at += 2,
+                word if self.peek(1) == "::" && self.is_child(word) => {
+                    let path = self.path();
+                    self.record(&path);
+                }
                 _ => self.at += 1,
             }
         }
+    }
+
+    fn is_child(&self, word: &str) -> bool {
+        self.module == self.file && self.children.contains(&word)
     }
 
     /// Passes an attribute and, where it is `cfg(test)`, the item that it stands at.
@@ -267,7 +285,7 @@ impl<'a> Reader<'a> {
         prefix.truncate(length);
     }
 
-    /// Enters a path that begins in this crate.
+    /// Enters a path that begins in this crate: at its root, in this module, or in one that this file declares.
     fn record(&mut self, path: &[String]) {
         let mut absolute = self.module.clone();
         let mut rest = path;
@@ -277,6 +295,7 @@ impl<'a> Reader<'a> {
                 rest = &path[1..];
             }
             Some("self" | "super") => {}
+            Some(child) if self.is_child(child) => {}
             _ => return,
         }
         while let Some((first, others)) = rest.split_first() {

@@ -1,7 +1,7 @@
 //! The checks find what they should, and nothing else.
 
 use super::reader::uses;
-use super::{RULES, Root, forbidden_word, machine_path, name};
+use super::{RULES, Root, forbidden_word, is_on_circle, machine_path, name, used_files};
 
 fn example_root() -> Root {
     let modules = RULES
@@ -10,7 +10,7 @@ fn example_root() -> Root {
         .collect();
     let exports = [
         ("Error", "error::Error"),
-        ("fill_holes", "fill::pipeline::fill_holes"),
+        ("fill_holes", "fill::session::fill_holes"),
     ];
     Root {
         modules,
@@ -128,7 +128,7 @@ fn what_is_forbidden_is_found_in_every_form() {
             "fn g() { #[cfg(test)] crate::fill::f(); }",
             "fill::f",
         ),
-        ("boundary", "use crate::fill_holes;", "fill::pipeline"),
+        ("boundary", "use crate::fill_holes;", "fill::session"),
         ("boundary", "use crate::Nonsense;", "not known"),
         ("novelty", "use crate::error::Error;", "no rule"),
     ];
@@ -147,7 +147,7 @@ fn what_is_allowed_is_not_objected_to() {
     let root = example_root();
     let cases = [
         (
-            "fill::hole",
+            "fill::cut",
             "use crate::{fair::laplacian::X, boundary::*, quality::{self, Surface}};",
         ),
         ("methods::mls", "use crate::triangulate::triangulate;"),
@@ -255,4 +255,30 @@ fn forbidden_words_and_places_are_found_and_others_are_not() {
     ] {
         assert_eq!(machine_path(text), None, "{text}");
     }
+}
+
+#[test]
+fn circles_of_files_are_found_through_children_and_parents() {
+    let sources = [
+        ("a", "mod b; pub use b::f; use crate::d::g;"),
+        ("a::b", "use super::c::h;"),
+        ("a::c", "fn h() { crate::a::S }"),
+        ("d", "use crate::a::c::inner::X;"),
+        ("e", "mod f; mod a { pub use super::f::x; } use a::y;"),
+        ("e::f", "#[cfg(test)] use super::z;"),
+    ];
+    let files: Vec<_> = sources.iter().map(|(file, _)| name(file)).collect();
+    let read: Vec<_> = sources
+        .iter()
+        .map(|(file, source)| uses(&name(file), source))
+        .collect();
+    let used = used_files(&files, &read);
+    assert_eq!(
+        used,
+        [vec![1, 3], vec![2], vec![0], vec![2], vec![5], vec![]]
+    );
+    let circles: Vec<_> = (0..files.len())
+        .filter(|&file| is_on_circle(file, &used))
+        .collect();
+    assert_eq!(circles, [0, 1, 2, 3]);
 }

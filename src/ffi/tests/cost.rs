@@ -73,10 +73,7 @@ fn the_way_through_c_costs_little() {
         .unwrap();
     println!("hole of {} edges", loop_info(mesh.0, hole).edge_count);
     let mut prepare = Vec::new();
-    // SAFETY: no pointer but null.
-    timed(&mut prepare, || unsafe {
-        holefill_mesh_prepare(mesh.0, nothing())
-    });
+    timed(&mut prepare, || call!(holefill_mesh_prepare: mesh.0));
     session.prepare();
     println!("loops and index: {:.3} s", prepare[0]);
     let (c_options, rust_options) = (
@@ -89,7 +86,7 @@ fn the_way_through_c_costs_little() {
     let (mut in_c, mut in_rust, mut patch_only) = (Vec::new(), Vec::new(), Vec::new());
     for turn in 0..TURNS {
         let status = timed(&mut in_c, || fill_loop(mesh.0, hole, &c_options));
-        assert_eq!(status, HOLEFILL_STATUS_OK);
+        assert_eq!(status, OK);
         let ids = [hole as usize];
         let report = timed(&mut in_rust, || {
             session.fill(Target::Loops(&ids), &rust_options, None)
@@ -106,8 +103,7 @@ fn the_way_through_c_costs_little() {
         session.undo();
         timed(&mut patch_only, || {
             let plan = plan_loop(mesh.0, hole, &c_options);
-            let (points, faces) = patch(plan, hole);
-            holefill_plan_free(plan);
+            let (points, faces) = patch(&plan, hole);
             points.len() + faces.len()
         });
     }

@@ -129,16 +129,16 @@ fn a_stop_on_a_hole_of_twenty_thousand_edges_is_answered_soon() {
             assert!(longest.used < LONGEST_GAP, "{name}: {longest:?}");
             let Some(asked) = stopper.asked else {
                 println!("{name}: to its end, longest gap {longest:?}");
-                assert_ne!(status, HOLEFILL_STATUS_CANCELLED, "{name}");
-                if status == HOLEFILL_STATUS_OK {
-                    assert_eq!(undo(mesh.0), HOLEFILL_STATUS_OK);
+                assert_ne!(status, CANCELLED, "{name}");
+                if status == OK {
+                    assert_eq!(undo(mesh.0), OK);
                 }
                 break;
             };
             let answer = returned - asked;
             answers.push(answer);
             println!("{name} stopped after {after} ms: {answer:?}, longest gap {longest:?}");
-            let expected = (HOLEFILL_STATUS_CANCELLED, before);
+            let expected = (CANCELLED, before);
             assert_eq!((status, digest(mesh.0)), expected, "{name}");
         }
         answers.sort_unstable();
@@ -158,7 +158,7 @@ fn a_stop_on_a_hole_of_twenty_thousand_edges_is_answered_soon() {
                 "{name} with {budget} ms: {status} after {:?}",
                 start.elapsed()
             );
-            if status == HOLEFILL_STATUS_OK {
+            if status == OK {
                 undo(mesh.0);
                 break;
             }

@@ -3,14 +3,11 @@
 
 use super::*;
 
-/// Room for a struct of any size, aligned.
-type Room = [u64; 64];
-
 /// What calls with a struct of the caller need.
 struct World {
-    mesh: Owned,
-    report: HolefillReport,
-    plan: HolefillPlan,
+    mesh: Owned<HolefillMesh>,
+    report: Owned<HolefillReport>,
+    plan: Owned<HolefillPlan>,
     points: Vec<[f64; 3]>,
 }
 
@@ -18,7 +15,7 @@ impl World {
     fn new() -> Self {
         let mesh = holed_mesh();
         let labels = vec![7_u8; info(mesh.0).vertex_count as usize];
-        let values = rows(&labels, HOLEFILL_TYPE_U8);
+        let values = rows(&labels);
         call!(holefill_mesh_add_attribute: mesh.0, 1, c"label".as_ptr(), 1, &values);
         Self {
             report: report_of(mesh.0, &at_loop(0), &with_method(c"auto")).1,
@@ -34,16 +31,19 @@ impl World {
         options: *const HolefillPointOptions,
         summary: *mut HolefillPointSummary,
     ) -> HolefillStatus {
-        let points = rows(&self.points, HOLEFILL_TYPE_F64);
-        let (none, mut mesh) = (ptr::null(), HolefillMesh::default());
-        // SAFETY: all pointers are null, to living values or the caller's.
-        unsafe {
-            let mesh = &mut mesh;
-            holefill_mesh_from_points(&points, none, none, options, mesh, summary, nothing())
+        let points = rows(&self.points);
+        let (none, mut mesh) = (ptr::null(), Owned(HolefillMesh::default()));
+        let place = &mut mesh.0;
+        call!(holefill_mesh_from_points: &points, none, none, options, place, summary)
+    }
+
+    /// Finds the loops that rules choose.
+    fn find(&self, selection: *const HolefillSelection) -> HolefillStatus {
+        let target = HolefillTarget {
+            selection,
+            ..every_loop()
         };
-        let status = i32::from(mesh.id == 0) * HOLEFILL_STATUS_INVALID_STRUCT;
-        holefill_mesh_free(mesh);
-        status
+        call!(holefill_mesh_find_loops: self.mesh.0, &target, ptr::null_mut(), 0, &mut 0)
     }
 
     /// Plans the second loop.
@@ -52,17 +52,8 @@ impl World {
         target: *const HolefillTarget,
         options: *const HolefillFillOptions,
     ) -> HolefillStatus {
-        let mut plan = HolefillPlan::default();
-        let status = call!(holefill_mesh_plan: self.mesh.0, target, options, &mut plan);
-        holefill_plan_free(plan);
-        status
-    }
-}
-
-impl Drop for World {
-    fn drop(&mut self) {
-        holefill_report_free(self.report);
-        holefill_plan_free(self.plan);
+        let mut plan = Owned(HolefillPlan::default());
+        call!(holefill_mesh_plan: self.mesh.0, target, options, &mut plan.0)
     }
 }
 
@@ -86,119 +77,62 @@ structs! {
     "defects" 48 true (w, room) call!(holefill_mesh_defects: w.mesh.0, room.cast());
     "attribute info" 24 true (w, room) call!(holefill_mesh_attribute_info: w.mesh.0, 1, 0, room.cast());
     "loop info" 104 true (w, room) call!(holefill_mesh_loop_info: w.mesh.0, 1, room.cast());
-    "selection" 96 false (w, room) call!(holefill_mesh_select: w.mesh.0, room.cast(), ptr::null_mut(), 0, &mut 0);
+    "selection" 96 false (w, room) w.find(room.cast());
     "target" 56 false (w, room) w.plan(room.cast(), ptr::null());
     "fill options" 96 false (w, room) w.plan(&at_loop(1), room.cast());
     "point options" 48 false (w, room) w.points(room.cast(), ptr::null_mut());
     "point summary" 80 true (w, room) w.points(ptr::null(), room.cast());
-    "patch info" 32 true (w, room) call!(holefill_plan_patch: w.plan, 1, room.cast());
-    "hole" 128 true (w, room) call!(holefill_report_hole: w.report, 0, room.cast());
-    "prediction" 56 true (w, room) call!(holefill_report_prediction: w.report, 0, room.cast());
-    "summary" 80 true (w, room) call!(holefill_report_summary: w.report, room.cast());
+    "patch info" 32 true (w, room) call!(holefill_plan_patch: w.plan.0, 1, room.cast());
+    "hole" 128 true (w, room) call!(holefill_report_hole: w.report.0, 0, room.cast());
+    "prediction" 56 true (w, room) call!(holefill_report_prediction: w.report.0, 0, room.cast());
+    "summary" 80 true (w, room) call!(holefill_report_summary: w.report.0, room.cast());
 }
 
 #[test]
 fn structs_of_older_and_newer_headers_are_read_and_written_as_far_as_they_go() {
     const MARK: u64 = 0x5555_5555_5555_5555;
     let world = World::new();
-    for (name, size, is_written, call) in STRUCTS.iter().copied() {
-        // The two numbers are the first word: the size and the version.
-        let head = |size: u32, version: u64| u64::from(size) | version << 32;
+    for &(name, size, is_written, call) in STRUCTS {
         let rest = if is_written { MARK } else { 0 };
-        let mut full = [rest; 64];
-        full[0] = head(size, 1);
-        assert_eq!(
-            call(&world, full.as_mut_ptr()),
-            HOLEFILL_STATUS_OK,
-            "{name}"
-        );
-        for size in [0, 1, 4, 7, size - 4, size - 1, 4097, u32::MAX] {
+        // The two numbers are the first word: the size and the version. `beyond` is what follows the size.
+        let check = |size: u32, version: u32, beyond: u64, expected| {
+            let known = (size as usize / 8).clamp(1, 64);
             let mut room = [rest; 64];
-            room[0] = head(size, 1);
+            room[known..].fill(beyond);
+            room[0] = u64::from(size) | u64::from(version) << 32;
             let before = room;
-            assert_eq!(
-                call(&world, room.as_mut_ptr()),
-                HOLEFILL_STATUS_INVALID_STRUCT,
-                "{name} {size}"
-            );
-            assert_eq!(room, before, "{name} {size}");
+            let what = format!("{name} of {size} bytes and version {version}");
+            assert_eq!(call(&world, room.as_mut_ptr()), expected, "{what}");
+            assert!(expected == OK || room == before, "{what}");
+            // What lies behind the struct is neither read nor written.
+            assert_eq!(room[known..], before[known..], "{what}");
+            room
+        };
+        let full = check(size, 1, rest, OK);
+        for wrong in [0, 1, 4, 7, size - 4, size - 1, 4097, u32::MAX] {
+            check(wrong, 1, rest, INVALID_STRUCT);
         }
-        for version in [0, 2, u64::from(u32::MAX)] {
-            let mut room = [rest; 64];
-            room[0] = head(size, version);
-            assert_eq!(
-                call(&world, room.as_mut_ptr()),
-                HOLEFILL_STATUS_INVALID_STRUCT,
-                "{name} {version}"
-            );
+        for version in [0, 2, u32::MAX] {
+            check(size, version, rest, INVALID_STRUCT);
         }
-        for words in 1..=size as usize / 8 + 8 {
-            // Where the library reads, what lies behind the struct must not be read.
-            let mut room = [MARK; 64];
-            room[0] = head(8 * words as u32, 1);
-            if !is_written {
-                room[1..words].fill(0);
-            }
-            assert_eq!(
-                call(&world, room.as_mut_ptr()),
-                HOLEFILL_STATUS_OK,
-                "{name} of {words} words"
-            );
-            assert!(
-                room[words..].iter().all(|&w| w == MARK),
-                "{name} of {words} words"
-            );
+        let words = size as usize / 8;
+        for given in 1..=words + 8 {
+            let room = check(8 * given as u32, 1, MARK, OK);
             if is_written {
-                let known = words.min(size as usize / 8);
-                assert!(
-                    room[known..words].iter().all(|&w| w == 0),
-                    "{name} of {words} words"
-                );
-                assert_eq!(room[1..known], full[1..known], "{name} of {words} words");
-            } else if words > size as usize / 8 {
-                room[words - 1] = 1;
-                assert_eq!(
-                    call(&world, room.as_mut_ptr()),
-                    HOLEFILL_STATUS_INVALID_STRUCT,
-                    "{name}"
-                );
+                let known = given.min(words);
+                assert_eq!(room[1..known], full[1..known], "{name} of {given} words");
+                assert!(room[known..given].iter().all(|&w| w == 0), "{name}");
+            } else if given > words {
+                let mut room = room;
+                room[given - 1] = 1;
+                assert_eq!(call(&world, room.as_mut_ptr()), INVALID_STRUCT, "{name}");
             }
         }
     }
-}
-
-#[test]
-fn structs_are_made_blank_as_far_as_they_go() {
-    let mut room: Room = [9; 64];
-    // SAFETY: the room is as large as is said.
-    unsafe {
-        let place = room.as_mut_ptr();
-        assert_eq!(
-            holefill_fill_options_init(place.cast(), 128),
-            HOLEFILL_STATUS_OK
-        );
-        assert_eq!(
-            (room[0], &room[1..16], room[16]),
-            (128 | 1 << 32, &[0; 15][..], 9)
-        );
-        let place = room.as_mut_ptr();
-        assert_eq!(
-            holefill_selection_init(place.cast(), 24),
-            HOLEFILL_STATUS_OK
-        );
-        assert_eq!(room[0], 24 | 1 << 32);
-        let place = room.as_mut_ptr();
-        for size in [0, 7, 95, 4097] {
-            let status = holefill_selection_init(place.cast(), size);
-            assert_eq!(status, HOLEFILL_STATUS_INVALID_STRUCT, "{size}");
-        }
-    }
-    assert_eq!(room[0], 24 | 1 << 32);
 }
 
 #[test]
 fn options_out_of_their_range_are_refused_and_nothing_is_filled() {
-    use HOLEFILL_STATUS_INVALID_ARGUMENT as INVALID;
     let mesh = holed_mesh();
     let before = digest(mesh.0);
     let changes: [Change<HolefillFillOptions>; 10] = [
@@ -210,8 +144,8 @@ fn options_out_of_their_range_are_refused_and_nothing_is_filled() {
         (|o| o.time_budget = f64::NAN, INVALID),
         (|o| o.time_budget = f64::INFINITY, INVALID),
         (|o| o.max_new_vertices = u64::MAX, INVALID),
-        (|o| o.threads = 1025, HOLEFILL_STATUS_LIMIT),
-        (|o| o.parameters.id = 99, HOLEFILL_STATUS_INVALID_HANDLE),
+        (|o| o.threads = 1025, LIMIT),
+        (|o| o.parameters.id = 99, INVALID_HANDLE),
     ];
     for (k, (change, expected)) in changes.into_iter().enumerate() {
         let mut given = options();
@@ -223,73 +157,62 @@ fn options_out_of_their_range_are_refused_and_nothing_is_filled() {
 
 #[test]
 fn what_is_not_there_is_not_found() {
-    use HOLEFILL_STATUS_NOT_FOUND as NONE;
     let mesh = holed_mesh();
     let before = digest(mesh.0);
     let count = info(mesh.0).vertex_count;
     let [from, to] = loop_info(mesh.0, 0).edge;
-    let chain = rows(&[0_u32, 1, 2], HOLEFILL_TYPE_U32);
-    let far = rows(&[0_u64, u64::MAX - 9], HOLEFILL_TYPE_U64);
-    let none = rows(&[0_u32, 2], HOLEFILL_TYPE_U32);
-    let negative = rows(&[-1_i32], HOLEFILL_TYPE_I32);
-    let mut bad_edge = structs::blank::<HolefillSelection>();
-    bad_edge.only = rows(&[[0_u32, 1]], HOLEFILL_TYPE_U32);
+    let chain = rows(&[0_u32, 1, 2]);
+    let far = rows(&[0_u64, u64::MAX - 9]);
+    let none = rows(&[0_u32, 2]);
+    let negative = rows(&[-1_i32]);
+    let edge = [[0_u32, 1]];
+    let bad_edge = HolefillSelection {
+        only: rows(&edge),
+        ..Default::default()
+    };
     let reserved = HolefillTarget {
         reserved: 1,
         ..every_loop()
     };
     for (target, expected) in [
-        (at_loop(2), NONE),
-        (at_loop(u64::from(u32::MAX) + 1), NONE),
-        (at_loop(u64::MAX), NONE),
-        (at_edge([to, from]), NONE),
-        (at_edge([from, from]), NONE),
-        (at_edge([count, 0]), HOLEFILL_STATUS_INDEX_OUT_OF_RANGE),
-        (at_edge([0, u64::MAX]), HOLEFILL_STATUS_INDEX_OUT_OF_RANGE),
-        (at_ids(HOLEFILL_TARGET_VERTICES, &chain), NONE),
-        (at_ids(HOLEFILL_TARGET_LOOPS, &none), NONE),
-        (
-            at_ids(HOLEFILL_TARGET_LOOPS, &far),
-            HOLEFILL_STATUS_INDEX_OUT_OF_RANGE,
-        ),
-        (
-            at_ids(HOLEFILL_TARGET_LOOPS, &negative),
-            HOLEFILL_STATUS_INVALID_ARGUMENT,
-        ),
-        (target(HOLEFILL_TARGET_LOOPS), HOLEFILL_STATUS_NULL_POINTER),
-        (
-            target(HOLEFILL_TARGET_VERTICES),
-            HOLEFILL_STATUS_NULL_POINTER,
-        ),
-        (selected(&bad_edge), HOLEFILL_STATUS_INVALID_ARGUMENT),
-        (target(5), HOLEFILL_STATUS_INVALID_ARGUMENT),
-        (target(u32::MAX), HOLEFILL_STATUS_INVALID_ARGUMENT),
-        (reserved, HOLEFILL_STATUS_INVALID_STRUCT),
+        (at_loop(2), NOT_FOUND),
+        (at_loop(u64::from(u32::MAX) + 1), NOT_FOUND),
+        (at_loop(u64::MAX), NOT_FOUND),
+        (at_edge([to, from]), NOT_FOUND),
+        (at_edge([from, from]), NOT_FOUND),
+        (at_edge([count, 0]), OUT_OF_RANGE),
+        (at_edge([0, u64::MAX]), OUT_OF_RANGE),
+        (at_ids(HOLEFILL_TARGET_VERTICES, &chain), NOT_FOUND),
+        (at_ids(HOLEFILL_TARGET_LOOPS, &none), NOT_FOUND),
+        (at_ids(HOLEFILL_TARGET_LOOPS, &far), OUT_OF_RANGE),
+        (at_ids(HOLEFILL_TARGET_LOOPS, &negative), INVALID),
+        (target(HOLEFILL_TARGET_LOOPS), NULL),
+        (target(HOLEFILL_TARGET_VERTICES), NULL),
+        (selected(&bad_edge), INVALID),
+        (target(5), INVALID),
+        (target(u32::MAX), INVALID),
+        (reserved, INVALID_STRUCT),
     ] {
         let (status, report) = report_of(mesh.0, &target, &options());
-        assert_eq!((status, report.id), (expected, 0), "{target:?}");
+        assert_eq!((status, report.0.id), (expected, 0), "{target:?}");
         let mut plan = HolefillPlan::default();
         let status = call!(holefill_mesh_plan: mesh.0, &target, ptr::null(), &mut plan);
         assert_eq!((status, plan.id), (expected, 0), "{target:?}");
+        assert_eq!(found(mesh.0, &target), Err(expected), "{target:?}");
     }
     let mut numbers = [[0.0_f64; 3]; 2];
-    let output = place(&mut numbers, HOLEFILL_TYPE_F64);
+    let output = place(&mut numbers);
     let mut id = 0;
-    // SAFETY: all pointers are null or to living values.
-    unsafe {
-        for first in [count - 1, count, u64::MAX] {
-            let status = holefill_mesh_read_positions(mesh.0, first, &output, nothing());
-            assert_eq!(status, NONE);
-        }
-        let mut error = HolefillError::default();
-        let status = holefill_mesh_find_edge(mesh.0, to, from, &mut id, &mut error);
-        assert_eq!(status, NONE);
-        assert!(message(error).contains("runs from"));
-        holefill_error_free(error);
-        for element in [0, 3, u32::MAX] {
-            let status = holefill_mesh_attribute_count(mesh.0, element, &mut id, nothing());
-            assert_eq!(status, HOLEFILL_STATUS_INVALID_ARGUMENT);
-        }
+    for first in [count - 1, count, u64::MAX] {
+        let status = call!(holefill_mesh_read_positions: mesh.0, first, &output);
+        assert_eq!(status, NOT_FOUND);
+    }
+    let (turned, no) = (at_edge([to, from]), ptr::null_mut());
+    let (_, text) = said!(holefill_mesh_find_loops: mesh.0, &turned, no, 0, &mut id);
+    assert!(text.contains("runs from"), "{text}");
+    for element in [0, 3, u32::MAX] {
+        let status = call!(holefill_mesh_attribute_count: mesh.0, element, &mut id);
+        assert_eq!(status, INVALID);
     }
     assert_eq!(digest(mesh.0), before);
 }
@@ -299,20 +222,14 @@ fn a_loop_that_is_closed_or_cannot_be_filled_is_refused() {
     let mesh = holed_mesh();
     fill_loop(mesh.0, 0, &options());
     let before = digest(mesh.0);
-    assert_eq!(
-        fill_loop(mesh.0, 0, &options()),
-        HOLEFILL_STATUS_INVALID_ARGUMENT
-    );
+    assert_eq!(fill_loop(mesh.0, 0, &options()), INVALID);
     assert_eq!(digest(mesh.0), before);
     let turned = mesh_of(&fixtures::moebius(12));
     let twisted = (0..loop_count(turned.0))
         .find(|&id| loop_info(turned.0, id).loop_class >= HOLEFILL_CLASS_NOT_ORIENTED);
     if let Some(id) = twisted {
-        assert_eq!(
-            fill_loop(turned.0, id, &options()),
-            HOLEFILL_STATUS_TOPOLOGY
-        );
-        assert_eq!(fill_all(turned.0, &options()), HOLEFILL_STATUS_INCOMPLETE);
+        assert_eq!(fill_loop(turned.0, id, &options()), TOPOLOGY);
+        assert_eq!(fill_all(turned.0, &options()), INCOMPLETE);
     }
 }
 
@@ -321,22 +238,20 @@ fn plans_that_no_longer_fit_are_refused() {
     let mesh = holed_mesh();
     let other = holed_mesh();
     let plan = plan_loop(mesh.0, 0, &options());
-    assert_eq!(apply(plan, other.0), HOLEFILL_STATUS_STALE_PLAN);
+    assert_eq!(apply(&plan, other.0), STALE_PLAN);
     // A fill elsewhere does not matter, nor does its undo.
     fill_loop(mesh.0, 1, &options());
     let late = plan_loop(mesh.0, 0, &options());
     undo(mesh.0);
     let before = digest(mesh.0);
-    assert_eq!(apply(late, mesh.0), HOLEFILL_STATUS_STALE_PLAN);
+    assert_eq!(apply(&late, mesh.0), STALE_PLAN);
     assert_eq!(digest(mesh.0), before);
-    assert_eq!(apply(plan, mesh.0), HOLEFILL_STATUS_OK);
+    assert_eq!(apply(&plan, mesh.0), OK);
     undo(mesh.0);
     let labels = vec![0_u8; info(mesh.0).vertex_count as usize];
-    let values = rows(&labels, HOLEFILL_TYPE_U8);
+    let values = rows(&labels);
     call!(holefill_mesh_add_attribute: mesh.0, 1, c"label".as_ptr(), 1, &values);
-    assert_eq!(apply(plan, mesh.0), HOLEFILL_STATUS_STALE_PLAN);
-    holefill_plan_free(plan);
-    holefill_plan_free(late);
+    assert_eq!(apply(&plan, mesh.0), STALE_PLAN);
 }
 
 #[test]
@@ -356,7 +271,7 @@ fn one_error_object_serves_many_calls() {
         holefill_mesh_prepare(mesh.0, &mut error);
         assert!(message(error).contains("50"), "success leaves it alone");
     }
-    assert_eq!(holefill_error_free(error), HOLEFILL_STATUS_OK);
+    assert_eq!(holefill_error_free(error), OK);
 }
 
 #[test]
@@ -364,20 +279,20 @@ fn a_panic_becomes_a_status_and_poisons_the_mesh_that_was_in_use() {
     let mesh = holed_mesh();
     let mut error = HolefillError::default();
     let panicking = guard::guard(&mut error, || {
-        objects::with_mesh::<()>(mesh.0.id, |_| panic!("on purpose"))
+        mesh.0.with(|_| -> Result<(), _> { panic!("on purpose") })
     });
-    assert_eq!(panicking, HOLEFILL_STATUS_PANIC);
+    assert_eq!(panicking, PANIC);
     assert!(message(error).contains("on purpose"));
     holefill_error_free(error);
-    assert_eq!(fill_loop(mesh.0, 0, &options()), HOLEFILL_STATUS_POISONED);
+    assert_eq!(fill_loop(mesh.0, 0, &options()), POISONED);
     let mut count = 0;
     let status = call!(holefill_mesh_loop_count: mesh.0, &mut count);
-    assert_eq!(status, HOLEFILL_STATUS_POISONED);
+    assert_eq!(status, POISONED);
     let other = holed_mesh();
     let panicking = guard::guard(nothing(), || {
-        objects::with_mesh_mut::<()>(other.0.id, |_| panic!("on purpose"))
+        objects::with_mesh_mut::<()>(other.0, |_| panic!("on purpose"))
     });
-    assert_eq!(panicking, HOLEFILL_STATUS_PANIC);
-    assert_eq!(undo(other.0), HOLEFILL_STATUS_POISONED);
-    assert_eq!(holefill_mesh_free(other.0), HOLEFILL_STATUS_OK);
+    assert_eq!(panicking, PANIC);
+    assert_eq!(undo(other.0), POISONED);
+    assert_eq!(holefill_mesh_free(other.0), OK);
 }

@@ -30,46 +30,37 @@ fn or_null<T>(value: &Option<T>) -> *const T {
     value.as_ref().map_or(ptr::null(), ptr::from_ref)
 }
 
-/// The status, the mesh, what became of the points, and the message of a failure.
+/// The status, the mesh, and what became of the points.
 fn make(
     points: &HolefillInput,
     given: &Given,
-) -> (HolefillStatus, Owned, HolefillPointSummary, String) {
-    let mut mesh = HolefillMesh { id: 77 };
-    let mut summary = structs::blank::<HolefillPointSummary>();
-    let mut error = HolefillError::default();
-    // SAFETY: all pointers are null or to living values.
-    let status = unsafe {
-        holefill_mesh_from_points(
-            points,
-            or_null(&given.normals),
-            or_null(&given.colors),
-            or_null(&given.options),
-            &mut mesh,
-            &mut summary,
-            &mut error,
-        )
-    };
-    if status == HOLEFILL_STATUS_OK {
-        return (status, Owned(mesh), summary, String::new());
+) -> (HolefillStatus, Owned<HolefillMesh>, HolefillPointSummary) {
+    let mut mesh = Owned(HolefillMesh::default());
+    let mut summary = HolefillPointSummary::default();
+    let (normals, colors) = (or_null(&given.normals), or_null(&given.colors));
+    let (options, made, became) = (or_null(&given.options), &mut mesh.0, &mut summary);
+    let (status, text) =
+        said!(holefill_mesh_from_points: points, normals, colors, options, made, became);
+    if status != OK {
+        let written = (mesh.0.id, summary.triangle_count);
+        assert_eq!(written, (0, 0), "outputs are written only on success");
+        assert!(!text.is_empty());
     }
-    assert_eq!(mesh.id, 77, "an output is written only on success");
-    assert_eq!(summary.triangle_count, 0);
-    let text = message(error);
-    holefill_error_free(error);
-    assert!(!text.is_empty());
-    (status, Owned(HolefillMesh::default()), summary, text)
+    (status, mesh, summary)
 }
 
 fn point_options() -> HolefillPointOptions {
     HolefillPointOptions {
         threads: 1,
-        ..structs::blank()
+        ..Default::default()
     }
 }
 
-fn refused(points: &HolefillInput, given: &Given) -> HolefillStatus {
-    make(points, given).0
+fn with_options(options: HolefillPointOptions) -> Given {
+    Given {
+        options: Some(options),
+        ..Given::default()
+    }
 }
 
 #[test]
@@ -81,18 +72,14 @@ fn a_mesh_from_points_is_that_of_the_rust_call() {
         None,
     )
     .unwrap();
-    let view = rows(&points, HOLEFILL_TYPE_F64);
+    let view = rows(&points);
     for threads in [0, 1, 2] {
         let options = HolefillPointOptions {
             threads,
             ..point_options()
         };
-        let given = Given {
-            options: Some(options),
-            ..Given::default()
-        };
-        let (status, mesh, summary, _) = make(&view, &given);
-        assert_eq!(status, HOLEFILL_STATUS_OK);
+        let (status, mesh, summary) = make(&view, &with_options(options));
+        assert_eq!(status, OK);
         assert_eq!(positions(mesh.0), points);
         assert_eq!(triangles(mesh.0), expected.triangles());
         assert_eq!(summary.used as usize, report.used);
@@ -101,7 +88,7 @@ fn a_mesh_from_points_is_that_of_the_rust_call() {
         assert_eq!(summary.estimated_normals as usize, points.len());
         assert_eq!(summary.radius, report.radius);
         assert_eq!(loop_count(mesh.0), 2);
-        assert_eq!(fill_all(mesh.0, &super::options()), HOLEFILL_STATUS_OK);
+        assert_eq!(fill_all(mesh.0, &super::options()), OK);
     }
 }
 
@@ -141,8 +128,8 @@ fn points_may_stand_anywhere_and_duplicates_stay_as_vertices() {
         colors: Some(view(37, HOLEFILL_TYPE_U8)),
         options: None,
     };
-    let (status, mesh, summary, _) = make(&view(1, HOLEFILL_TYPE_F32), &given);
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    let (status, mesh, summary) = make(&view(1, HOLEFILL_TYPE_F32), &given);
+    assert_eq!(status, OK);
     assert_eq!((summary.duplicates, summary.estimated_normals), (1, 1));
     let (positions, triangles) = (positions(mesh.0), triangles(mesh.0));
     assert_eq!(positions.len(), samples.len());
@@ -160,7 +147,7 @@ fn points_may_stand_anywhere_and_duplicates_stay_as_vertices() {
         );
     }
     let mut colors = vec![[0_u8; 3]; samples.len()];
-    let output = place(&mut colors, HOLEFILL_TYPE_U8);
+    let output = place(&mut colors);
     ok!(holefill_mesh_read_attribute: mesh.0, 1, 0, 0, &output);
     let kept = colors.iter().zip(&samples);
     assert!(kept.into_iter().all(|(c, s)| c[..] == { s.color }[..3]));
@@ -172,28 +159,25 @@ fn points_that_make_no_mesh_are_refused() {
     let line: Vec<[f64; 3]> = (0..30).map(|i| [f64::from(i), 0.0, 0.0]).collect();
     let same = vec![[1.0, 2.0, 3.0]; 30];
     for few in [&[][..], &good[..1], &good[..3], &line, &same] {
-        let (status, .., text) = make(&rows(few, HOLEFILL_TYPE_F64), &Given::default());
-        assert_eq!(status, HOLEFILL_STATUS_INVALID_ARGUMENT, "{text}");
+        assert_eq!(make(&rows(few), &Given::default()).0, INVALID);
     }
     // Colors are data that is carried on, whatever it is.
     let mut points = good.clone();
     points[5][1] = f64::NAN;
     let given = Given {
-        colors: Some(rows(&points, HOLEFILL_TYPE_F64)),
+        colors: Some(rows(&points)),
         ..Given::default()
     };
-    let status = refused(&rows(&good, HOLEFILL_TYPE_F64), &given);
-    assert_eq!(status, HOLEFILL_STATUS_OK);
+    assert_eq!(make(&rows(&good), &given).0, OK);
 }
 
 #[test]
 fn options_for_points_are_checked() {
-    use HOLEFILL_STATUS_INVALID_ARGUMENT as INVALID;
     let points = cloud();
-    let view = rows(&points, HOLEFILL_TYPE_F64);
+    let view = rows(&points);
     let changes: [Change<HolefillPointOptions>; 15] = [
-        (|_| {}, HOLEFILL_STATUS_OK),
-        (|o| o.time_budget = 1e6, HOLEFILL_STATUS_OK),
+        (|_| {}, OK),
+        (|o| o.time_budget = 1e6, OK),
         (|o| o.radius = -1.0, INVALID),
         (|o| o.radius = f64::NAN, INVALID),
         (|o| o.radius = f64::INFINITY, INVALID),
@@ -206,17 +190,13 @@ fn options_for_points_are_checked() {
         (|o| o.neighbours = 5, INVALID),
         (|o| o.neighbours = 201, INVALID),
         (|o| o.neighbours = u32::MAX, INVALID),
-        (|o| o.threads = 1025, HOLEFILL_STATUS_LIMIT),
-        (|o| o.time_budget = 1e-9, HOLEFILL_STATUS_LIMIT),
+        (|o| o.threads = 1025, LIMIT),
+        (|o| o.time_budget = 1e-9, LIMIT),
     ];
     for (k, (change, expected)) in changes.into_iter().enumerate() {
         let mut options = point_options();
         change(&mut options);
-        let given = Given {
-            options: Some(options),
-            ..Given::default()
-        };
-        assert_eq!(refused(&view, &given), expected, "{k}");
+        assert_eq!(make(&view, &with_options(options)).0, expected, "{k}");
     }
 }
 
@@ -224,24 +204,21 @@ fn options_for_points_are_checked() {
 fn making_a_mesh_from_points_can_be_stopped_at_every_call() {
     // Some tens of milliseconds.
     let points: Vec<[f64; 3]> = fixtures::sphere(60).positions;
-    let view = rows(&points, HOLEFILL_TYPE_F64);
+    let view = rows(&points);
     let mut n = 0_i64;
     loop {
         let mut left = n;
-        let given = Given {
-            options: Some(HolefillPointOptions {
-                progress: Some(stop_at),
-                progress_data: (&raw mut left).cast(),
-                ..point_options()
-            }),
-            ..Given::default()
+        let options = HolefillPointOptions {
+            progress: Some(stop_at),
+            progress_data: (&raw mut left).cast(),
+            ..point_options()
         };
-        let (status, ..) = make(&view, &given);
+        let (status, ..) = make(&view, &with_options(options));
         if left >= 0 {
-            assert_eq!(status, HOLEFILL_STATUS_OK);
+            assert_eq!(status, OK);
             break;
         }
-        assert_eq!(status, HOLEFILL_STATUS_CANCELLED, "call {n}");
+        assert_eq!(status, CANCELLED, "call {n}");
         n += 1 + n / 3;
     }
     assert!(n > 0, "the callback is asked");

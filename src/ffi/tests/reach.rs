@@ -30,15 +30,14 @@ fn every_method_is_reached() {
             ..options()
         };
         let (status, report) = report_of(mesh.0, &at_loop(0), &options);
-        assert_eq!(status, HOLEFILL_STATUS_OK, "{method}");
-        let hole = hole(report, 0);
+        assert_eq!(status, OK, "{method}");
+        let hole = hole(&report, 0);
         let mut used: Vec<&str> = static_text(hole.method).into_iter().collect();
         for attempt in 0..hole.tried_count {
             let (mut tried, mut length, no) = (ptr::null(), 0, ptr::null_mut());
-            ok!(holefill_report_tried: report, 0, attempt, &mut tried, no, 0, &mut length);
+            ok!(holefill_report_tried: report.0, 0, attempt, &mut tried, no, 0, &mut length);
             used.push(name(tried));
         }
-        holefill_report_free(report);
         // `auto` is none of its own: it chooses among the others.
         assert!(
             method == "auto" || used.contains(&method),
@@ -50,16 +49,12 @@ fn every_method_is_reached() {
 /// Sets a parameter through C; whether it was taken.
 fn set(parameters: HolefillParameters, name: &str, value: &str) -> bool {
     let (name, value) = (text_of(name), text_of(value));
-    let mut error = HolefillError::default();
-    // SAFETY: the texts end with a zero byte.
-    let status =
-        unsafe { holefill_parameters_set(parameters, name.as_ptr(), value.as_ptr(), &mut error) };
-    if status != HOLEFILL_STATUS_OK {
-        assert_eq!(status, HOLEFILL_STATUS_INVALID_ARGUMENT);
-        assert!(message(error).contains(name.to_str().unwrap()));
-        holefill_error_free(error);
+    let (status, text) = said!(holefill_parameters_set: parameters, name.as_ptr(), value.as_ptr());
+    if status != OK {
+        assert_eq!(status, INVALID);
+        assert!(text.contains(name.to_str().unwrap()));
     }
-    status == HOLEFILL_STATUS_OK
+    status == OK
 }
 
 fn get(parameters: HolefillParameters, name: &str) -> String {
@@ -91,8 +86,9 @@ fn every_parameter_is_reached() {
     let known: Vec<_> = FillOptions::parameters().collect();
     assert_eq!(count as usize, known.len());
     assert!(holefill_parameter_name(count).is_null());
-    let mut parameters = HolefillParameters::default();
-    call!(holefill_parameters_new: &mut parameters);
+    let mut owned = Owned(HolefillParameters::default());
+    call!(holefill_parameters_new: &mut owned.0);
+    let parameters = owned.0;
     let mut asked = Vec::new();
     for (i, parameter) in (0..count).zip(&known) {
         let name = name(holefill_parameter_name(i));
@@ -115,21 +111,18 @@ fn every_parameter_is_reached() {
         assert!(changed, "{name} never changes: {}", parameter.allowed());
         asked.push(get(parameters, name));
     }
-    let (mut error, no) = (HolefillError::default(), c"no".as_ptr());
-    // SAFETY: the texts are static.
-    let status = unsafe { holefill_parameters_set(parameters, no, no, &mut error) };
-    assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
-    assert!(message(error).contains("refine.density"));
-    holefill_error_free(error);
+    let no = c"no".as_ptr();
+    let (status, text) = said!(holefill_parameters_set: parameters, no, no);
+    assert_eq!(status, NOT_FOUND);
+    assert!(text.contains("refine.density"));
     // And a fill that is given them gets them.
     let given = HolefillFillOptions {
         parameters,
-        ..structs::blank()
+        ..Default::default()
     };
     // SAFETY: the pointer is to a living value.
     let (read, _) = unsafe { super::super::options::read_options(&given) }.expect("allowed");
     for (parameter, asked) in known.iter().zip(asked) {
         assert_eq!(parameter.value(&read), asked, "{}", parameter.name());
     }
-    holefill_parameters_free(parameters);
 }

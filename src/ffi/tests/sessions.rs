@@ -23,18 +23,14 @@ fn circle() -> Vec<[f64; 3]> {
         .collect()
 }
 
-fn polyline(normals: Option<&[[f64; 3]]>) -> Owned {
+fn polyline(normals: Option<&[[f64; 3]]>) -> Owned<HolefillMesh> {
     let points = circle();
-    let points = rows(&points, HOLEFILL_TYPE_F64);
-    let normals = normals.map(|n| rows(n, HOLEFILL_TYPE_F64));
-    let mut mesh = HolefillMesh::default();
-    // SAFETY: all pointers are null or to living values.
-    let status = unsafe {
-        let normals = normals.as_ref().map_or(ptr::null(), ptr::from_ref);
-        holefill_mesh_from_polyline(&points, normals, &mut mesh, nothing())
-    };
-    assert_eq!(status, HOLEFILL_STATUS_OK);
-    Owned(mesh)
+    let points = rows(&points);
+    let normals = normals.map(rows);
+    let normals = normals.as_ref().map_or(ptr::null(), ptr::from_ref);
+    let mut mesh = Owned(HolefillMesh::default());
+    ok!(holefill_mesh_from_polyline: &points, normals, &mut mesh.0);
+    mesh
 }
 
 /// Largest distance of the new vertices from the unit sphere.
@@ -52,10 +48,7 @@ fn a_circle_with_the_normals_of_the_sphere_gives_its_cap_and_without_them_a_disk
     for method in [c"fair-c1", c"fair-c2"] {
         let curved = polyline(Some(&normals));
         assert_eq!(loop_count(curved.0), 1);
-        assert_eq!(
-            fill_loop(curved.0, 0, &with_method(method)),
-            HOLEFILL_STATUS_OK
-        );
+        assert_eq!(fill_loop(curved.0, 0, &with_method(method)), OK);
         let height = 1.0 - OPENING.cos();
         let found = deviation(curved.0);
         assert!(found < 0.25 * height, "{method:?}: {found}");
@@ -64,10 +57,7 @@ fn a_circle_with_the_normals_of_the_sphere_gives_its_cap_and_without_them_a_disk
         let runs = |t: &[u32; 3]| (0..3).any(|k| (t[k], t[(k + 1) % 3]) == (0, 1));
         assert!(faces.iter().any(runs));
         let flat = polyline(None);
-        assert_eq!(
-            fill_loop(flat.0, 0, &with_method(method)),
-            HOLEFILL_STATUS_OK
-        );
+        assert_eq!(fill_loop(flat.0, 0, &with_method(method)), OK);
         let plane = OPENING.cos();
         assert!(
             positions(flat.0)
@@ -93,31 +83,24 @@ fn a_polyline_is_used_as_a_mesh_is() {
         (0..EDGES as u64).collect::<Vec<_>>()
     );
     let labels = vec![3_u8; EDGES];
-    let mut id = 9;
-    let values = rows(&labels, HOLEFILL_TYPE_U8);
-    let empty = rows(&labels[..0], HOLEFILL_TYPE_U8);
+    let values = rows(&labels);
+    let empty = rows(&labels[..0]);
     let name = c"label".as_ptr();
     ok!(holefill_mesh_add_attribute: mesh.0, 1, name, 1, &values);
     ok!(holefill_mesh_add_attribute: mesh.0, 2, name, 1, &empty);
-    let status = call!(holefill_mesh_find_edge: mesh.0, 47, 0, &mut id);
-    assert_eq!((status, id), (HOLEFILL_STATUS_OK, 0));
-    let status = call!(holefill_mesh_find_edge: mesh.0, 3, 5, &mut id);
-    assert_eq!(status, HOLEFILL_STATUS_NOT_FOUND);
+    assert_eq!(found(mesh.0, &at_edge([47, 0])), Ok(vec![0]));
+    assert_eq!(found(mesh.0, &at_edge([3, 5])), Err(NOT_FOUND));
     let methods = [c"flat", c"membrane", c"fair-c1", c"fair-c2", c"auto"];
     for method in methods {
         let plan = plan_loop(mesh.0, 0, &with_method(method));
-        let (points, faces) = patch(plan, 0);
+        let (points, faces) = patch(&plan, 0);
         assert_eq!(faces.len(), EDGES - 2 + 2 * points.len(), "a disk");
-        assert_eq!(apply(plan, mesh.0), HOLEFILL_STATUS_OK);
+        assert_eq!(apply(&plan, mesh.0), OK);
         assert_eq!(triangles(mesh.0), faces);
         assert_eq!(loop_info(mesh.0, 0).is_open, 0);
-        assert_eq!(
-            fill_loop(mesh.0, 0, &options()),
-            HOLEFILL_STATUS_INVALID_ARGUMENT
-        );
-        assert_eq!(apply(plan, mesh.0), HOLEFILL_STATUS_STALE_PLAN);
-        assert_eq!(undo(mesh.0), HOLEFILL_STATUS_OK);
-        holefill_plan_free(plan);
+        assert_eq!(fill_loop(mesh.0, 0, &options()), INVALID);
+        assert_eq!(apply(&plan, mesh.0), STALE_PLAN);
+        assert_eq!(undo(mesh.0), OK);
     }
     assert_ne!(digest(mesh.0), before, "there are attributes now");
 }

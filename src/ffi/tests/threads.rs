@@ -21,80 +21,46 @@ fn random_call(
     mesh: HolefillMesh,
     noise: &mut Noise,
 ) -> (HolefillStatus, &'static [HolefillStatus]) {
-    const READS: &[HolefillStatus] = &[HOLEFILL_STATUS_OK, HOLEFILL_STATUS_BUSY];
-    const FILLS: &[HolefillStatus] = &[
-        HOLEFILL_STATUS_OK,
-        HOLEFILL_STATUS_BUSY,
-        HOLEFILL_STATUS_INVALID_ARGUMENT,
-    ];
-    const UNDOES: &[HolefillStatus] = &[
-        HOLEFILL_STATUS_OK,
-        HOLEFILL_STATUS_BUSY,
-        HOLEFILL_STATUS_NOTHING_TO_UNDO,
-    ];
-    const APPLIES: &[HolefillStatus] = &[
-        HOLEFILL_STATUS_OK,
-        HOLEFILL_STATUS_INCOMPLETE,
-        HOLEFILL_STATUS_BUSY,
-        HOLEFILL_STATUS_INVALID_ARGUMENT,
-        HOLEFILL_STATUS_STALE_PLAN,
-    ];
+    const READS: &[HolefillStatus] = &[OK, BUSY];
+    const FILLS: &[HolefillStatus] = &[OK, BUSY, INVALID];
+    const UNDOES: &[HolefillStatus] = &[OK, BUSY, NOTHING_TO_UNDO];
+    const APPLIES: &[HolefillStatus] = &[OK, INCOMPLETE, BUSY, INVALID, STALE_PLAN];
     let id = u64::from(noise.below(2));
     let options = with_method([c"flat", c"membrane", c"fair-c1"][noise.below(3) as usize]);
     let mut number = 0;
     let mut point = [[0.0_f64; 3]; 3];
-    let output = place(&mut point, HOLEFILL_TYPE_F64);
-    // SAFETY: all pointers are null or to living values.
-    unsafe {
-        match noise.below(12) {
-            0..3 => (
-                holefill_mesh_loop_count(mesh, &mut number, nothing()),
-                READS,
-            ),
-            3..6 => {
-                let status = holefill_mesh_read_positions(mesh, 1, &output, nothing());
-                (status, READS)
+    let output = place(&mut point);
+    match noise.below(12) {
+        0..3 => (call!(holefill_mesh_loop_count: mesh, &mut number), READS),
+        3..6 => (call!(holefill_mesh_read_positions: mesh, 1, &output), READS),
+        6 => (
+            call!(holefill_mesh_loop_info: mesh, id, &mut Default::default()),
+            READS,
+        ),
+        7..9 => (fill_loop(mesh, id, &options), FILLS),
+        9 => (undo(mesh), UNDOES),
+        planned => {
+            let mut plan = Owned(HolefillPlan::default());
+            let status = call!(holefill_mesh_plan: mesh, &at_loop(id), &options, &mut plan.0);
+            if status == OK && planned == 10 {
+                return (apply(&plan, mesh), APPLIES);
             }
-            6 => {
-                let mut info = structs::blank();
-                (
-                    holefill_mesh_loop_info(mesh, id, &mut info, nothing()),
-                    READS,
-                )
-            }
-            7..9 => (fill_loop(mesh, id, &options), FILLS),
-            9 => (undo(mesh), UNDOES),
-            10 => {
-                let mut plan = HolefillPlan::default();
-                let status = holefill_mesh_plan(mesh, &at_loop(id), &options, &mut plan, nothing());
-                if status == HOLEFILL_STATUS_OK {
-                    let status = apply(plan, mesh);
-                    holefill_plan_free(plan);
-                    return (status, APPLIES);
-                }
-                (status, FILLS)
-            }
-            _ => {
-                let mut plan = HolefillPlan::default();
-                let status = holefill_mesh_plan(mesh, &at_loop(id), &options, &mut plan, nothing());
-                holefill_plan_free(plan);
-                (status, FILLS)
-            }
+            (status, FILLS)
         }
     }
 }
 
 /// Undoes everything and fills with `fair-c1`.
 fn settle(mesh: HolefillMesh) -> u64 {
-    while undo(mesh) == HOLEFILL_STATUS_OK {}
-    assert_eq!(fill_all(mesh, &with_method(c"fair-c1")), HOLEFILL_STATUS_OK);
+    while undo(mesh) == OK {}
+    assert_eq!(fill_all(mesh, &with_method(c"fair-c1")), OK);
     digest(mesh)
 }
 
 #[test]
 fn eight_threads_on_shared_and_own_meshes_leave_what_one_thread_leaves() {
     let arrays = small();
-    let keep: Vec<Owned> = (0..3).map(|_| mesh_of(&arrays)).collect();
+    let keep: Vec<Owned<HolefillMesh>> = (0..3).map(|_| mesh_of(&arrays)).collect();
     let ids: Vec<HolefillMesh> = keep.iter().map(|m| m.0).collect();
     let run = |seed: usize| {
         let own = mesh_of(&arrays);
@@ -109,7 +75,7 @@ fn eight_threads_on_shared_and_own_meshes_leave_what_one_thread_leaves() {
                 // Nobody else uses it: the same statuses and states in every run.
                 let (status, allowed) = random_call(own.0, &mut noise);
                 assert!(allowed.contains(&status), "{status} on an own mesh");
-                assert_ne!(status, HOLEFILL_STATUS_BUSY);
+                assert_ne!(status, BUSY);
                 trace.push(status);
             }
         }
@@ -157,11 +123,11 @@ fn a_mesh_may_be_freed_while_it_is_filled() {
                 std::thread::yield_now();
             }
             std::thread::sleep(std::time::Duration::from_micros(wait));
-            assert_eq!(holefill_mesh_free(mesh), HOLEFILL_STATUS_OK);
+            assert_eq!(holefill_mesh_free(mesh), OK);
             filling.join().unwrap()
         });
-        assert_eq!(status, HOLEFILL_STATUS_OK);
-        assert_eq!(undo(mesh), HOLEFILL_STATUS_INVALID_HANDLE);
+        assert_eq!(status, OK);
+        assert_eq!(undo(mesh), INVALID_HANDLE);
     }
 }
 
@@ -203,15 +169,8 @@ fn callbacks_may_call_the_library() {
         progress_data: (&raw mut seen).cast(),
         ..options()
     };
-    let plan = plan_loop(mesh.0, 0, &options);
-    assert_eq!(
-        (seen.read, seen.written, seen.elsewhere),
-        (HOLEFILL_STATUS_OK, HOLEFILL_STATUS_BUSY, HOLEFILL_STATUS_OK)
-    );
-    holefill_plan_free(plan);
-    assert_eq!(fill_loop(mesh.0, 0, &options), HOLEFILL_STATUS_OK);
-    assert_eq!(
-        (seen.read, seen.written),
-        (HOLEFILL_STATUS_BUSY, HOLEFILL_STATUS_BUSY)
-    );
+    let _plan = plan_loop(mesh.0, 0, &options);
+    assert_eq!((seen.read, seen.written, seen.elsewhere), (OK, BUSY, OK));
+    assert_eq!(fill_loop(mesh.0, 0, &options), OK);
+    assert_eq!((seen.read, seen.written), (BUSY, BUSY));
 }

@@ -12,9 +12,10 @@ mod columns;
 mod nearest;
 mod rbf;
 
-use super::hole::{BandInMesh, Hole};
+use super::cut::MeshPlace;
 use crate::error::{Error, ErrorKind, Result};
 use crate::fair::kharmonic::{extend_from_rim, extend_with_slope};
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::sparse::SpdSolver;
 use crate::math::{Vec3, cross_normal, unit};
@@ -26,6 +27,7 @@ use crate::methods::spec::{Extension, HoleReach};
 use crate::methods::task::Task;
 use crate::options::{FillOptions, Interpolator};
 use crate::patch::PatchSurface;
+use crate::surroundings::Surroundings;
 use columns::{is_interpolated, normal_columns};
 use nearest::{nearest_rim_faces, nearest_rim_vertices};
 use rbf::{Rbf, spread_out};
@@ -88,6 +90,7 @@ impl CarriedAttributes {
 pub(crate) struct AttributeTask<'a> {
     pub(crate) mesh: &'a TriMesh,
     pub(crate) hole: &'a Hole,
+    pub(crate) place: &'a MeshPlace,
     pub(crate) surface: &'a PatchSurface,
     pub(crate) options: &'a FillOptions,
     /// What made the patch.
@@ -102,18 +105,18 @@ impl AttributeTask<'_> {
     /// # Errors
     /// [`ErrorKind::Cancelled`] only: an interpolant that cannot be computed gives way to a simpler one.
     pub(crate) fn carry(&self) -> Result<CarriedAttributes> {
-        let (hole, surface) = (self.hole, self.surface);
+        let (place, surface) = (self.place, self.surface);
         let columns = self.mesh.vertex_attributes().columns();
         let new_count = surface.points.len() - surface.rim_count;
         let vertex_sources = if columns.is_empty() {
             vec![0; new_count]
         } else {
-            nearest_rim_vertices(hole, surface)
+            nearest_rim_vertices(place, surface, self.job)?
         };
         let face_sources = if self.mesh.face_attributes().columns().is_empty() {
             vec![0; surface.triangles.len()]
         } else {
-            nearest_rim_faces(hole, surface)
+            nearest_rim_faces(self.hole, place, surface)
         };
         let mut carried = CarriedAttributes {
             vertex_sources,
@@ -144,15 +147,16 @@ impl AttributeTask<'_> {
             && let Some(extension) = self.extension()
         {
             let vicinity = (extension.reach)(self.options);
-            reach = hole.in_mesh(HoleReach::rings(BAND_RINGS).union(vicinity));
+            let step = self.hole.surroundings.sampling_step();
+            reach = place.reach(HoleReach::rings(BAND_RINGS).union(vicinity), step);
         }
-        let band = hole.band(self.mesh, reach, self.job)?;
+        let (around, vertices) = place.surroundings(self.mesh, reach, self.job)?;
         let known: Vec<Channel> = interpolated
             .into_iter()
-            .filter_map(|c| self.channel(c, &band))
+            .filter_map(|c| self.channel(c, &vertices))
             .collect();
         if !known.is_empty()
-            && let Some(values) = self.interpolate(interpolator, &band, &known)?
+            && let Some(values) = self.interpolate(interpolator, &around, &known)?
         {
             for (channel, values) in known.iter().zip(values) {
                 let values = values.into_iter().map(|v| channel.denormalized(v));
@@ -168,10 +172,10 @@ impl AttributeTask<'_> {
     /// opposite to it.
     fn sign_of_normals(&self, axes: [usize; 3]) -> f64 {
         let columns = self.mesh.vertex_attributes().columns();
-        let polygon = &self.hole.shape.polygon;
+        let polygon = &self.hole.polygon;
         let mut agreement = 0.0;
-        for (&i, outside) in polygon.iter().zip(&self.hole.shape.outside_normals) {
-            let vertex = self.hole.rim[i as usize] as usize;
+        for (&i, outside) in polygon.iter().zip(&self.hole.outside_normals) {
+            let vertex = self.place.rim[i as usize] as usize;
             let given = axes.map(|c| columns[c].values.number(vertex).unwrap_or(0.0));
             if let Some(outside) = outside {
                 let product = outside.dot(&Vec3::from(given));
@@ -181,13 +185,12 @@ impl AttributeTask<'_> {
         if agreement < 0.0 { -1.0 } else { 1.0 }
     }
 
-    /// The values of a column round the hole. `None` when one of them is not finite: it would spread over the
+    /// The values of a column at these vertices round the hole. `None` when one of them is not finite: it would spread over the
     /// whole patch.
-    fn channel(&self, column: usize, band: &BandInMesh) -> Option<Channel> {
+    fn channel(&self, column: usize, vertices: &[u32]) -> Option<Channel> {
         let attribute = &self.mesh.vertex_attributes().columns()[column];
         let number = |&v: &u32| attribute.values.number(v as usize).unwrap_or(0.0);
-        let vertices = self.hole.rim.iter().chain(&band.vertices);
-        let values: Vec<f64> = vertices.map(number).collect();
+        let values: Vec<f64> = vertices.iter().map(number).collect();
         values
             .iter()
             .all(|v| v.is_finite())
@@ -199,7 +202,7 @@ impl AttributeTask<'_> {
     fn interpolate(
         &self,
         first: Interpolator,
-        band: &BandInMesh,
+        around: &Surroundings,
         channels: &[Channel],
     ) -> Result<Option<Vec<Vec<f64>>>> {
         let chain = [
@@ -211,9 +214,9 @@ impl AttributeTask<'_> {
         let start = chain.iter().position(|&i| i == first).unwrap_or(0);
         for &interpolator in &chain[start..] {
             let found = match interpolator {
-                Interpolator::Mls => self.by_method(band, channels),
-                Interpolator::Rbf => self.by_radial_functions(band, channels),
-                Interpolator::Biharmonic => self.by_thin_plate(band, channels),
+                Interpolator::Mls => self.by_method(around, channels),
+                Interpolator::Rbf => self.by_radial_functions(around, channels),
+                Interpolator::Biharmonic => self.by_thin_plate(around, channels),
                 _ => self.by_membrane(|i| channels.iter().map(|c| c.values[i]).collect()),
             };
             match found {
@@ -240,25 +243,24 @@ impl AttributeTask<'_> {
         of(self.method).or_else(|| of(Method::Mls))
     }
 
-    fn by_method(&self, band: &BandInMesh, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {
+    fn by_method(&self, around: &Surroundings, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {
         let extension = self
             .extension()
             .ok_or_else(|| Error::invalid("no method extends values"))?;
-        let task = Task::new(&self.hole.shape, self.options, self.job);
+        let task = Task::new(self.hole, self.options, self.job);
         let known: Vec<Vec<f64>> = channels.iter().map(|c| c.values.clone()).collect();
         let new_points = &self.surface.points[self.surface.rim_count..];
-        (extension.extend)(&task, &band.surroundings, &known, new_points)
+        (extension.extend)(&task, around, &known, new_points)
     }
 
     fn by_radial_functions(
         &self,
-        band: &BandInMesh,
+        around: &Surroundings,
         channels: &[Channel],
     ) -> Result<Vec<Vec<f64>>> {
         let surface = self.surface;
-        let mut points = self.hole.shape.points.clone();
-        points.extend_from_slice(&band.surroundings.points);
-        let chosen = spread_out(&points, self.options.attributes.centers, CENTER_SEPARATION);
+        let points = around.points();
+        let chosen = spread_out(points, self.options.attributes.centers, CENTER_SEPARATION);
         let centers: Vec<Vec3> = chosen.iter().map(|&i| points[i]).collect();
         let value = |i: usize, c: usize| channels[c].values[chosen[i]];
         let f = Rbf::through(&centers, channels.len(), value)?;
@@ -275,7 +277,7 @@ impl AttributeTask<'_> {
         // The rim of a large hole has more vertices than there are centres: what the function misses there
         // is added as a membrane, so that there is no seam.
         let mut missed = Vec::with_capacity(surface.rim_count);
-        for (i, p) in self.hole.shape.points.iter().enumerate() {
+        for (i, p) in self.hole.rim().iter().enumerate() {
             self.job.tick(150)?;
             f.evaluate(p, &mut at_point);
             let differences = channels.iter().zip(&at_point).map(|(c, v)| c.values[i] - v);
@@ -292,7 +294,7 @@ impl AttributeTask<'_> {
         Ok(result)
     }
 
-    fn by_thin_plate(&self, band: &BandInMesh, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {
+    fn by_thin_plate(&self, around: &Surroundings, channels: &[Channel]) -> Result<Vec<Vec<f64>>> {
         let rim_count = self.surface.rim_count;
         let mut solver = SpdSolver::new(self.job);
         let mut result = Vec::with_capacity(channels.len());
@@ -300,12 +302,8 @@ impl AttributeTask<'_> {
             self.job.ask()?;
             let row = |i: usize| Vec3::from_fn(|k, _| three.get(k).map_or(0.0, |c| c.values[i]));
             let at_rim: Vec<Vec3> = (0..rim_count).map(row).collect();
-            let around: Vec<Vec3> = (0..band.vertices.len())
-                .map(|i| row(rim_count + i))
-                .collect();
-            let surroundings = &band.surroundings;
-            let inside =
-                extend_with_slope(self.surface, surroundings, &at_rim, &around, &mut solver)?;
+            let outside: Vec<Vec3> = (rim_count..around.points().len()).map(row).collect();
+            let inside = extend_with_slope(self.surface, around, &at_rim, &outside, &mut solver)?;
             result.extend((0..three.len()).map(|k| inside.iter().map(|v| v[k]).collect()));
         }
         Ok(result)
@@ -337,7 +335,7 @@ impl AttributeTask<'_> {
     }
 }
 
-/// The values of one column at the rim and then in the band, in units of the largest, so that no sum overflows.
+/// The values of one column at the rim and then round it, in units of the largest, so that no sum overflows.
 struct Channel {
     column: usize,
     unit: f64,

@@ -4,54 +4,48 @@
 //! distance to the place the front came from: what lies across a gap is not nearer than what lies along the
 //! surface. O(n log n) for n vertices or triangles.
 
-use crate::fill::hole::Hole;
+use crate::error::Result;
+use crate::fill::cut::MeshPlace;
+use crate::hole::Hole;
+use crate::job::Job;
 use crate::math::Vec3;
+use crate::math::adjacency::CompressedRows;
 use crate::patch::PatchSurface;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// For each interior vertex the mesh vertex on the rim that it is nearest to.
-pub(super) fn nearest_rim_vertices(hole: &Hole, surface: &PatchSurface) -> Vec<u32> {
+///
+/// # Errors
+/// `Cancelled` when the job is stopped.
+pub(super) fn nearest_rim_vertices(
+    place: &MeshPlace,
+    surface: &PatchSurface,
+    job: &Job<'_>,
+) -> Result<Vec<u32>> {
     let count = surface.points.len();
-    let mut starts = vec![0_u32; count + 1];
-    for v in surface.triangles.iter().flatten() {
-        starts[*v as usize + 1] += 2;
-    }
-    for v in 0..count {
-        starts[v + 1] += starts[v];
-    }
-    let mut slots = starts.clone();
-    let mut neighbours = vec![0_u32; 6 * surface.triangles.len()];
-    for t in &surface.triangles {
-        for k in 0..3 {
-            for other in [t[(k + 1) % 3], t[(k + 2) % 3]] {
-                let slot = &mut slots[t[k] as usize];
-                neighbours[*slot as usize] = other;
-                *slot += 1;
-            }
-        }
-    }
+    let neighbors = CompressedRows::corners(&surface.triangles, count);
+    job.ask()?;
     let mut fronts = Fronts::new(count);
     for v in 0..surface.rim_count as u32 {
         fronts.source[v as usize] = Some(v);
     }
     let sources = fronts.spread(
         (0..surface.rim_count as u32).collect(),
-        |v, visit| {
-            let range = starts[v as usize] as usize..starts[v as usize + 1] as usize;
-            neighbours[range].iter().for_each(|&w| visit(w));
-        },
+        |v, visit| neighbors.of(v).iter().for_each(|&w| visit(w)),
         |v, source| surface.points[v as usize] - surface.points[source as usize],
     );
-    sources[surface.rim_count..]
-        .iter()
-        .map(|s| hole.rim[s.unwrap_or(0) as usize])
-        .collect()
+    let new = sources[surface.rim_count..].iter();
+    Ok(new.map(|s| place.rim[s.unwrap_or(0) as usize]).collect())
 }
 
 /// For each triangle the mesh triangle along the rim that it is nearest to. A triangle with an edge on the rim
 /// has that edge's.
-pub(super) fn nearest_rim_faces(hole: &Hole, surface: &PatchSurface) -> Vec<u32> {
+pub(super) fn nearest_rim_faces(
+    hole: &Hole,
+    place: &MeshPlace,
+    surface: &PatchSurface,
+) -> Vec<u32> {
     let mut edges: Vec<(u32, u32, u32)> = Vec::with_capacity(3 * surface.triangles.len());
     for (f, t) in surface.triangles.iter().enumerate() {
         edges.extend((0..3).map(|k| (t[k], t[(k + 1) % 3], f as u32)));
@@ -61,13 +55,14 @@ pub(super) fn nearest_rim_faces(hole: &Hole, surface: &PatchSurface) -> Vec<u32>
         let i = edges.partition_point(|&(x, y, _)| (x, y) < (a, b));
         edges.get(i).filter(|e| (e.0, e.1) == (a, b)).map(|e| e.2)
     };
-    let polygon = &hole.shape.polygon;
+    let polygon = &hole.polygon;
     let rim_edge = |i: usize| (polygon[i], polygon[(i + 1) % polygon.len()]);
     let mut fronts = Fronts::new(surface.triangles.len());
     let mut seeds = Vec::new();
-    for (i, outside) in hole.outside_faces.iter().enumerate() {
+    for (i, &is_bridge) in hole.is_bridge.iter().enumerate() {
         let (a, b) = rim_edge(i);
-        if let (Some(face), Some(_)) = (face_at(a, b), outside)
+        if let Some(face) = face_at(a, b)
+            && !is_bridge
             && fronts.source[face as usize].is_none()
         {
             fronts.source[face as usize] = Some(i as u32);
@@ -90,7 +85,7 @@ pub(super) fn nearest_rim_faces(hole: &Hole, surface: &PatchSurface) -> Vec<u32>
     );
     sources
         .into_iter()
-        .map(|i| i.and_then(|i| hole.outside_faces[i as usize]).unwrap_or(0))
+        .map(|i| i.and_then(|i| place.outside_faces[i as usize]).unwrap_or(0))
         .collect()
 }
 

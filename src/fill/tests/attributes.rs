@@ -4,7 +4,7 @@ use super::{Filled, METHODS, fill_mesh, with_method};
 use crate::boundary::loops::BoundaryLoops;
 use crate::boundary::select::Selection;
 use crate::error::ErrorKind;
-use crate::fill::pipeline::fill_holes;
+use crate::fill::session::at_once::fill_holes;
 use crate::fixtures;
 use crate::math::Vec3;
 use crate::mesh::attributes::{AttributeValues, Attributes, ListValues, ScalarType, ScalarValues};

@@ -2,6 +2,7 @@
 
 use super::{mesh_of, with_method};
 use crate::boundary::loops::BoundaryLoops;
+use crate::boundary::opening::Opening;
 use crate::fill::index::MeshIndex;
 use crate::fill::plan::{Planner, chain};
 use crate::fixtures::{self, Arrays};
@@ -51,18 +52,19 @@ fn longest_gap(arrays: &Arrays, method: Method) -> f64 {
         false
     };
     let planner = Planner {
-        mesh: &mesh,
+        loops: &boundary.loops,
         index: &index,
+        polyline: None,
         options: &options,
-        job: &Job::new(&ask),
     };
+    let (opening, job) = (Opening::of_loop(0), Job::new(&ask));
     let one_thread = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build()
         .unwrap();
     one_thread.install(|| {
         ask();
-        let plan = planner.plan(&boundary.loops[0], &[], &chain(&options)[..1]);
+        let plan = planner.plan(&mesh, &opening, &chain(&options)[..1], &job);
         assert!(plan.is_ok());
         ask();
     });

@@ -1,7 +1,7 @@
 //! Loose sheets inside a hole.
 
 use super::{METHODS, all_but_the_largest, fill, with_method};
-use crate::boundary::classify::LoopClass;
+use crate::boundary::boundary_loop::LoopClass;
 use crate::fill::report::HoleStatus;
 use crate::fixtures;
 use crate::methods::method::Method;

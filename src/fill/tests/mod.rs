@@ -12,14 +12,14 @@ mod shape;
 mod unfold;
 mod verify;
 
-use super::pipeline::fill_holes;
 use super::report::{FillReport, HoleStatus};
+use super::session::at_once::fill_holes;
 use crate::boundary::loops::BoundaryLoops;
 use crate::boundary::select::Selection;
 use crate::fixtures::Arrays;
 use crate::job::Job;
 use crate::math::Vec3;
-use crate::mesh::connectivity::BOUNDARY;
+use crate::mesh::halfedge::BOUNDARY;
 use crate::mesh::pairing::pair_halfedges;
 use crate::mesh::trimesh::TriMesh;
 use crate::methods::method::Method;

@@ -3,13 +3,14 @@
 use super::{Filled, METHODS, all_but_the_largest, bits, fill, mesh_of, with_method};
 use crate::RefinementOptions;
 use crate::boundary::loops::BoundaryLoops;
+use crate::boundary::opening::Opening;
 use crate::boundary::select::Selection;
 use crate::error::ErrorKind;
 use crate::fill::index::MeshIndex;
-use crate::fill::pipeline::fill_holes;
 use crate::fill::plan::{Planner, chain};
 use crate::fill::progress::Progress;
 use crate::fill::report::HoleStatus;
+use crate::fill::session::at_once::fill_holes;
 use crate::fixtures::{self, Arrays};
 use crate::job::Job;
 use crate::mesh::trimesh::TriMesh;
@@ -122,13 +123,13 @@ fn planning_stops_wherever_it_is_cancelled() {
         let stop = || asked.fetch_add(1, Ordering::Relaxed) >= questions;
         let job = Job::new(&stop);
         let planner = Planner {
-            mesh: &mesh,
+            loops: &boundary.loops,
             index: &index,
+            polyline: None,
             options: &options,
-            job: &job,
         };
-        let outcome =
-            one_thread.install(|| planner.plan(&boundary.loops[0], &[], &chain(&options)));
+        let opening = Opening::of_loop(0);
+        let outcome = one_thread.install(|| planner.plan(&mesh, &opening, &chain(&options), &job));
         (
             outcome.map_err(|f| f.error.kind()),
             asked.load(Ordering::Relaxed),

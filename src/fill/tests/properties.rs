@@ -1,11 +1,11 @@
 //! Random holes by every method, and random triangles.
 
 use super::{METHODS, all_but_the_largest, bits, fill, mesh_of, with_method};
-use crate::boundary::classify::LoopClass;
+use crate::boundary::boundary_loop::LoopClass;
 use crate::boundary::loops::BoundaryLoops;
 use crate::boundary::select::Selection;
-use crate::fill::pipeline::fill_holes;
 use crate::fill::report::HoleStatus;
+use crate::fill::session::at_once::fill_holes;
 use crate::fixtures::{self, Arrays, Noise};
 use crate::methods::method::Method;
 use crate::options::FillOptions;

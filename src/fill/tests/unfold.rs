@@ -4,11 +4,12 @@ use super::{all_but_the_largest, fill, with_method};
 use crate::boundary::select::Selection;
 use crate::fill::report::HoleStatus;
 use crate::fixtures::{self, Arrays};
+use crate::hole::Hole;
 use crate::job::UNLIMITED;
 use crate::math::{Vec3, unit};
 use crate::methods::method::Method;
 use crate::methods::task::Task;
-use crate::patch::HoleShape;
+use crate::surroundings::Surroundings;
 use std::f64::consts::TAU;
 
 const METHODS: [Method; 2] = [Method::UnfoldArea, Method::UnfoldFairing];
@@ -131,17 +132,16 @@ fn the_same_seed_gives_the_same_bits() {
 }
 
 /// A regular polygon as a hole without surroundings, in which `joined` pairs have edges already.
-fn regular_hole(m: u32, joined: Vec<(u32, u32)>) -> HoleShape {
+fn regular_hole(m: u32, joined: Vec<(u32, u32)>) -> Hole {
     let radius = 0.5 / (TAU / f64::from(2 * m)).sin();
-    HoleShape {
-        points: (0..m)
-            .map(|i| circle(TAU * f64::from(i) / f64::from(m)) * radius)
-            .collect(),
+    let corner = |i: u32| circle(TAU * f64::from(i) / f64::from(m)) * radius;
+    Hole {
+        surroundings: Surroundings::bare((0..m).map(corner).collect()),
         polygon: (0..m).collect(),
         outside_normals: vec![None; m as usize],
         edge_lengths: vec![1.0; m as usize],
+        is_bridge: vec![false; m as usize],
         joined,
-        ..HoleShape::default()
     }
 }
 

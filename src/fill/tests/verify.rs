@@ -3,9 +3,10 @@
 use super::{mesh_of, with_method};
 use crate::boundary::loops::BoundaryLoops;
 use crate::error::{ErrorKind, Result};
-use crate::fill::hole::Hole;
+use crate::fill::cut::{MeshPlace, cut_out};
 use crate::fill::verify::{check_against_mesh, check_patch};
 use crate::fixtures::{self, Arrays};
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::Vec3;
 use crate::mesh::pairing::pair_halfedges;
@@ -15,25 +16,30 @@ use crate::methods::spec::HoleReach;
 use crate::methods::task::Task;
 use crate::patch::PatchSurface;
 
+/// The hole of a mesh with one loop.
+fn cut(mesh: &TriMesh, rings: u32) -> (Hole, MeshPlace) {
+    let boundary = BoundaryLoops::find(mesh);
+    let rims = [&boundary.loops[0]];
+    cut_out(mesh, &rims, HoleReach::rings(rings), &Job::unlimited()).unwrap()
+}
+
+/// What is wrong with triangles that are to be appended to the mesh over the hole.
+fn against(mesh: &TriMesh, hole: &(Hole, MeshPlace), triangles: &[[u32; 3]]) -> Option<ErrorKind> {
+    let rim_edges = hole.1.rim_edges(&hole.0.polygon);
+    kind(check_against_mesh(mesh, &rim_edges, triangles))
+}
+
 /// The hole of a mesh with one loop, and its patch.
-fn hole_and_patch(arrays: &Arrays, method: Method) -> (TriMesh, Hole, PatchSurface) {
+fn hole_and_patch(arrays: &Arrays, method: Method) -> (TriMesh, (Hole, MeshPlace), PatchSurface) {
     let mesh = mesh_of(arrays);
-    let boundary = BoundaryLoops::find(&mesh);
-    let hole = Hole::new(
-        &mesh,
-        &boundary.loops[0],
-        &[],
-        HoleReach::rings(2),
-        &Job::unlimited(),
-    )
-    .unwrap();
+    let hole = cut(&mesh, 2);
     let options = with_method(method);
     let job = Job::unlimited();
-    let surface = (method.spec().make)(&Task::new(&hole.shape, &options, &job)).unwrap();
+    let surface = (method.spec().make)(&Task::new(&hole.0, &options, &job)).unwrap();
     (mesh, hole, surface)
 }
 
-fn sphere_cap() -> (TriMesh, Hole, PatchSurface) {
+fn sphere_cap() -> (TriMesh, (Hole, MeshPlace), PatchSurface) {
     hole_and_patch(
         &fixtures::sphere(10).jittered(0.01, 3).cut(|c| c[2] > 0.6),
         Method::FairC1,
@@ -49,7 +55,7 @@ fn assert_caught(expected: ErrorKind, what: &str, change: impl Fn(&mut PatchSurf
     let (_, hole, mut surface) = sphere_cap();
     assert_eq!(
         kind(check_patch(
-            &hole,
+            &hole.0,
             &surface,
             Method::FairC1.spec().farthest,
             &Job::unlimited()
@@ -59,7 +65,7 @@ fn assert_caught(expected: ErrorKind, what: &str, change: impl Fn(&mut PatchSurf
     change(&mut surface);
     assert_eq!(
         kind(check_patch(
-            &hole,
+            &hole.0,
             &surface,
             Method::FairC1.spec().farthest,
             &Job::unlimited()
@@ -76,7 +82,7 @@ fn a_patch_as_it_is_made_is_accepted() {
             hole_and_patch(&fixtures::sphere(9).cut(|c| c[0] > 0.5), method);
         assert_eq!(
             kind(check_patch(
-                &hole,
+                &hole.0,
                 &surface,
                 Method::FairC1.spec().farthest,
                 &Job::unlimited()
@@ -85,10 +91,10 @@ fn a_patch_as_it_is_made_is_accepted() {
         );
         let global = |v: u32| match (v as usize).checked_sub(surface.rim_count) {
             Some(new) => (mesh.positions().len() + new) as u32,
-            None => hole.rim[v as usize],
+            None => hole.1.rim[v as usize],
         };
         let triangles: Vec<_> = surface.triangles.iter().map(|t| t.map(global)).collect();
-        assert_eq!(kind(check_against_mesh(&mesh, &hole, &triangles)), None);
+        assert_eq!(against(&mesh, &hole, &triangles), None);
     }
 }
 
@@ -165,25 +171,17 @@ fn positions_that_cannot_be_are_caught() {
 fn an_edge_that_the_mesh_has_already_is_caught() {
     // The rim of two triangles: its diagonal 1-2 is taken, 0-3 is free.
     let mesh = mesh_of(&fixtures::two_triangles());
-    let boundary = BoundaryLoops::find(&mesh);
-    let hole = Hole::new(
-        &mesh,
-        &boundary.loops[0],
-        &[],
-        HoleReach::rings(1),
-        &Job::unlimited(),
-    )
-    .unwrap();
-    let at = |v: u32| hole.rim.iter().position(|&r| r == v).unwrap() as u32;
+    let hole = cut(&mesh, 1);
+    let at = |v: u32| hole.1.rim.iter().position(|&r| r == v).unwrap() as u32;
     let patch = |triangles: [[u32; 3]; 2]| PatchSurface {
         rim_count: 4,
-        points: hole.shape.points.clone(),
+        points: hole.0.rim().to_vec(),
         triangles: triangles.map(|t| t.map(at)).to_vec(),
     };
     let free = patch([[0, 2, 3], [0, 3, 1]]);
     assert_eq!(
         kind(check_patch(
-            &hole,
+            &hole.0,
             &free,
             Method::FairC1.spec().farthest,
             &Job::unlimited()
@@ -193,14 +191,14 @@ fn an_edge_that_the_mesh_has_already_is_caught() {
     let taken = patch([[0, 2, 1], [1, 2, 3]]);
     assert_eq!(
         kind(check_patch(
-            &hole,
+            &hole.0,
             &taken,
             Method::FairC1.spec().farthest,
             &Job::unlimited()
         )),
         Some(ErrorKind::Topology)
     );
-    let caught = |triangles: &[[u32; 3]]| kind(check_against_mesh(&mesh, &hole, triangles));
+    let caught = |triangles: &[[u32; 3]]| against(&mesh, &hole, triangles);
     assert_eq!(caught(&[[0, 2, 3], [0, 3, 1]]), None);
     assert_eq!(caught(&[[0, 2, 1], [1, 2, 3]]), Some(ErrorKind::Topology));
 }
@@ -208,29 +206,15 @@ fn an_edge_that_the_mesh_has_already_is_caught() {
 #[test]
 fn a_rim_that_was_closed_in_the_meantime_is_caught() {
     let mut mesh = mesh_of(&fixtures::triangle().with_vertex([0.0, 0.0, 1.0]));
-    let boundary = BoundaryLoops::find(&mesh);
-    let hole = Hole::new(
-        &mesh,
-        &boundary.loops[0],
-        &[],
-        HoleReach::rings(1),
-        &Job::unlimited(),
-    )
-    .unwrap();
+    let hole = cut(&mesh, 1);
     let tent = [[1, 0, 3], [2, 1, 3], [0, 2, 3]];
-    assert_eq!(kind(check_against_mesh(&mesh, &hole, &tent)), None);
+    assert_eq!(against(&mesh, &hole, &tent), None);
     let lid = [[0, 2, 1]];
-    assert_eq!(
-        kind(check_against_mesh(&mesh, &hole, &lid)),
-        Some(ErrorKind::Topology)
-    );
+    assert_eq!(against(&mesh, &hole, &lid), Some(ErrorKind::Topology));
     let twins = pair_halfedges(&tent, 4);
     mesh.append(&[], &tent, &twins, |_, faces| faces.append_copies(&[0; 3]))
         .unwrap();
-    assert_eq!(
-        kind(check_against_mesh(&mesh, &hole, &lid)),
-        Some(ErrorKind::Topology)
-    );
+    assert_eq!(against(&mesh, &hole, &lid), Some(ErrorKind::Topology));
 }
 
 #[test]
@@ -239,31 +223,23 @@ fn the_coordinates_of_a_hole_are_those_of_the_mesh_moved_and_scaled() {
         .cut(|c| c[2] > 0.6)
         .moved(1e3, 1.0, [1e6, 0.0, -1e6]);
     let mesh = mesh_of(&arrays);
-    let boundary = BoundaryLoops::find(&mesh);
-    let hole = Hole::new(
-        &mesh,
-        &boundary.loops[0],
-        &[],
-        HoleReach::rings(2),
-        &Job::unlimited(),
-    )
-    .unwrap();
-    let n = hole.rim.len();
-    assert!(hole.shape.points.iter().sum::<Vec3>().norm() < 1e-6);
+    let (hole, place) = cut(&mesh, 2);
+    let n = hole.rim().len();
+    assert!(hole.rim().iter().sum::<Vec3>().norm() < 1e-6);
     let perimeter: f64 = (0..n)
-        .map(|i| (hole.shape.points[(i + 1) % n] - hole.shape.points[i]).norm())
+        .map(|i| (hole.rim()[(i + 1) % n] - hole.rim()[i]).norm())
         .sum();
     assert!((perimeter / n as f64 - 1.0).abs() < 1e-9);
-    for (p, &v) in hole.shape.points.iter().zip(&hole.rim) {
-        assert!((Vec3::from(hole.to_mesh(p)) - mesh.point(v)).norm() < 1e-8);
+    for (p, &v) in hole.rim().iter().zip(&place.rim) {
+        assert!((place.to_mesh(p) - mesh.point(v)).norm() < 1e-8);
     }
     // The polygon runs against the loop.
+    let boundary = BoundaryLoops::find(&mesh);
     let l = &boundary.loops[0].vertices;
     let at: Vec<u32> = hole
-        .shape
         .polygon
         .iter()
-        .map(|&i| hole.rim[i as usize])
+        .map(|&i| place.rim[i as usize])
         .collect();
     let first = l.iter().position(|&v| v == at[0]).unwrap();
     let expected: Vec<u32> = (0..n).map(|i| l[(first + n - i) % n]).collect();

@@ -1,16 +1,17 @@
-//! The rows of a PLY element, read into columns.
+//! Reads the rows of a PLY element into columns.
 //!
-//! A binary element whose lists have the same lengths in every row, such as a face element of
-//! triangles alone, has rows of one size and is read column by column; any other row by row.
+//! If all rows of a binary element have the same layout, it is read column by column. This is the case if it has no
+//! lists, or if the lists of a property have the same length in all rows, as for triangles. Any other element is read
+//! row by row.
 
 use super::super::text::{Lines, parse_error, parse_number, quoted, tokens};
-use super::PlyEncoding;
+use super::details::PlyEncoding;
 use super::header::{Element, Property};
 use super::number::{Encoded, decode_count};
 use crate::error::Result;
 use crate::mesh::attributes::{AttributeValues, ListValues, ScalarValues, with_scalars};
 
-/// Reads the rows of `element` from `body` and leaves `body` behind them.
+/// Reads the rows of `element` from `body`. Then `body` is at the byte after them.
 pub(super) fn read(
     body: &mut Lines,
     element: &Element,
@@ -38,7 +39,7 @@ pub(super) fn read(
     }
 }
 
-/// Where row `row` of `element` is, given where its first row begins.
+/// The place of row `row` of `element` for an error message. `start` is at its first row.
 pub(super) fn place(start: &Lines, element: &Element, encoding: PlyEncoding, row: usize) -> String {
     let mut body = start.clone();
     if encoding == PlyEncoding::Ascii {
@@ -53,14 +54,14 @@ pub(super) fn place(start: &Lines, element: &Element, encoding: PlyEncoding, row
     format!("byte {}", body.position())
 }
 
-/// Refuses a count of rows for which the rest of the file is too short, before any allocation.
+/// Refuses a number of rows for which the rest of the file is too short. It is called before any allocation.
 fn check_count(body: &Lines, element: &Element, encoding: PlyEncoding) -> Result<()> {
     let least_row = element.properties.iter().map(|property| match encoding {
-        // A digit and the space or line break after it.
+        // A digit, and a space or a line break.
         PlyEncoding::Ascii => 2,
         _ => property.least_size(),
     });
-    // The last line of a file may lack its line break.
+    // The last line of a text file may have no line break.
     let available = body.rest().len() + usize::from(encoding == PlyEncoding::Ascii);
     match least_row.sum::<usize>().checked_mul(element.count) {
         Some(least) if least <= available => Ok(()),
@@ -145,14 +146,14 @@ fn push_text(
     })
 }
 
-/// Where the properties are in a row.
+/// The positions of the properties in a row.
 struct RowLayout {
-    /// Per property: the offset of the first item, and how many items there are.
+    /// For each property: the offset of its first item, and its number of items.
     slots: Vec<(usize, usize)>,
     size: usize,
 }
 
-/// The layout of the row at the start of `bytes`; `None` if they end within it.
+/// The layout of the row at the start of `bytes`; `None` if `bytes` end before the row does.
 fn row_layout(bytes: &[u8], element: &Element, encoding: PlyEncoding) -> Option<RowLayout> {
     let mut slots = Vec::with_capacity(element.properties.len());
     let mut size = 0usize;

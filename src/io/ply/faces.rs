@@ -1,4 +1,4 @@
-//! The triangles in the face or tristrips element of a PLY file.
+//! Reads the triangles of the face or tristrips element of a PLY file.
 
 use super::super::polygons::Polygons;
 use super::number::Encoded;
@@ -46,8 +46,8 @@ fn extend_indices<T: Encoded>(items: &[T], vertex_count: usize, corners: &mut Ve
     true
 }
 
-/// The triangles of strips, in which -1 begins a new strip. Every second triangle of a strip is
-/// turned over, and triangles with a repeated corner, which join strips, are left out.
+/// The triangles of strips; -1 begins a new strip. Every second triangle of a strip is reversed. Triangles with a
+/// repeated corner only connect strips and are left out.
 pub(super) fn strips(lists: &ListValues, vertex_count: usize) -> Result<Vec<[u32; 3]>, BadIndex> {
     let mut triangles = Vec::new();
     let items: &ScalarValues = lists.items();

@@ -1,7 +1,7 @@
-//! The header of a PLY file: which elements follow, with which properties.
+//! Reads the header of a PLY file: the elements that follow, and their properties.
 
 use super::super::text::{Lines, parse_error, parse_number, quoted, tokens};
-use super::PlyEncoding;
+use super::details::PlyEncoding;
 use crate::error::Result;
 use crate::mesh::attributes::ScalarType;
 
@@ -26,12 +26,12 @@ pub(super) struct Element {
 pub(super) struct Property {
     pub(super) name: String,
     pub(super) item_type: ScalarType,
-    /// The type of a list's length; `None` for a property that is one number.
+    /// The type of the length of a list; `None` for a property that is one number.
     pub(super) count_type: Option<ScalarType>,
 }
 
 impl Property {
-    /// The least number of bytes that an entry takes in a binary file.
+    /// Lower bound on the bytes of an entry in a binary file.
     pub(super) fn least_size(&self) -> usize {
         self.count_type.unwrap_or(self.item_type).size()
     }

@@ -1,6 +1,7 @@
-//! PLY, the polygon file format: any properties, in text or binary.
+//! Reads and writes PLY, the polygon file format: any elements and properties, as text or binary.
 
 mod body;
+pub(super) mod details;
 mod faces;
 mod header;
 mod number;
@@ -8,88 +9,16 @@ mod write;
 
 pub(super) use write::{check, write};
 
+use super::mesh_data::{MeshData, check_vertex_count};
 use super::text::{Lines, parse_error};
-use super::{MeshData, check_vertex_count};
 use crate::error::{Error, Result};
 use crate::mesh::attributes::{AttributeValues, Attributes, ListValues, ScalarType, ScalarValues};
+use details::{CornerList, PlyDetails, PlyElement, PlyEncoding};
 use header::{Element, Header};
 
-/// How many values of face properties a byte of file may grow to when polygons are cut.
+/// Upper bound on the values of face attributes after polygons are cut into triangles, divided by the bytes of the
+/// file. It protects against files that would need far more memory than they have bytes.
 const REPEATED_VALUES_PER_BYTE: usize = 64;
-
-/// How a PLY file stores its numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum PlyEncoding {
-    /// As text.
-    Ascii,
-    /// In binary, least significant byte first.
-    #[default]
-    BinaryLittleEndian,
-    /// In binary, most significant byte first.
-    BinaryBigEndian,
-}
-
-impl PlyEncoding {
-    const ALL: [Self; 3] = [Self::Ascii, Self::BinaryLittleEndian, Self::BinaryBigEndian];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Ascii => "ascii",
-            Self::BinaryLittleEndian => "binary_little_endian",
-            Self::BinaryBigEndian => "binary_big_endian",
-        }
-    }
-}
-
-/// An element of a PLY file that is neither vertex nor face.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlyElement {
-    /// As in the header, such as `edge`.
-    pub name: String,
-    /// One entry per row.
-    pub rows: Attributes,
-}
-
-/// What a PLY file says that other formats cannot, so that it can be written again.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlyDetails {
-    /// How the numbers are stored.
-    pub encoding: PlyEncoding,
-    /// The `comment` and `obj_info` lines of the header, whole and in order.
-    pub remarks: Vec<String>,
-    /// The elements other than vertex and face, in order.
-    pub elements: Vec<PlyElement>,
-    corner_list: CornerList,
-    /// How many vertex attributes come before the position.
-    vertex_attributes_before: usize,
-    /// How many face attributes come before the list of corners.
-    face_attributes_before: usize,
-}
-
-impl Default for PlyDetails {
-    fn default() -> Self {
-        Self {
-            encoding: PlyEncoding::default(),
-            remarks: Vec::new(),
-            elements: Vec::new(),
-            corner_list: CornerList {
-                name: "vertex_indices",
-                count_type: ScalarType::U8,
-                index_type: ScalarType::I32,
-            },
-            vertex_attributes_before: 0,
-            face_attributes_before: 0,
-        }
-    }
-}
-
-/// The property of a face that lists its vertices.
-#[derive(Clone, Debug, PartialEq)]
-struct CornerList {
-    name: &'static str,
-    count_type: ScalarType,
-    index_type: ScalarType,
-}
 
 const CORNER_LIST_NAMES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
@@ -178,7 +107,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<MeshData> {
     })
 }
 
-/// Text after the last row means that a count is wrong; binary files may be padded.
+/// Refuses text after the last row of a text file, because then a count is wrong. Binary files may be padded.
 fn check_end(mut body: Lines, encoding: PlyEncoding, notes: &mut Vec<String>) -> Result<()> {
     let is_padding = body
         .rest()
@@ -198,7 +127,7 @@ fn check_end(mut body: Lines, encoding: PlyEncoding, notes: &mut Vec<String>) ->
     Ok(())
 }
 
-/// Takes the position out of the vertex columns; the rest of the result is left empty.
+/// Takes the positions out of the vertex columns. All other fields of the result are empty.
 fn read_vertices(
     table: Table,
     details: &mut PlyDetails,

@@ -1,16 +1,16 @@
-//! Numbers as the three encodings of PLY hold them.
+//! Reads and writes numbers in the three encodings of PLY.
 
-use super::PlyEncoding;
+use super::details::PlyEncoding;
 use crate::mesh::attributes::ScalarType;
 use std::fmt::Debug;
 use std::io::{self, Write};
 use std::str::FromStr;
 
-/// A number that a PLY property can hold. `Debug` prints the shortest text that reads back equal.
+/// A number type of PLY. `Debug` prints the shortest text that gives the same number when it is read.
 pub(super) trait Encoded: Copy + Debug + FromStr {
     const SIZE: usize;
 
-    /// From the first `SIZE` bytes, which must exist.
+    /// Reads a number from the first `SIZE` bytes, which must exist.
     fn decode(bytes: &[u8], encoding: PlyEncoding) -> Self;
 
     fn encode(self, encoding: PlyEncoding, out: &mut impl Write) -> io::Result<()>;
@@ -50,7 +50,7 @@ macro_rules! impl_encoded {
 impl_encoded!(|value| u32::try_from(i64::from(value)).ok() => i8, u8, i16, u16, i32, u32);
 impl_encoded!(|_| None => f32, f64);
 
-/// The length of a list, from as many bytes as `count_type` has; `None` if negative.
+/// The length of a list, read from a number of type `count_type`; `None` if it is negative.
 pub(super) fn decode_count(
     bytes: &[u8],
     count_type: ScalarType,
@@ -68,7 +68,7 @@ pub(super) fn decode_count(
     index.and_then(|count| usize::try_from(count).ok())
 }
 
-/// Writes the length of a list, which must fit `count_type`.
+/// Writes the length of a list. It must fit `count_type`.
 pub(super) fn encode_count(
     count: usize,
     count_type: ScalarType,

@@ -1,17 +1,17 @@
-//! A mesh written as PLY.
+//! Writes a mesh as PLY.
 
-use super::super::{MeshData, check_single_precision};
+use super::super::mesh_data::{MeshData, check_single_precision};
+use super::details::{PlyDetails, PlyEncoding};
 use super::header::type_name;
 use super::number::{Encoded, encode_count, largest};
-use super::{PlyDetails, PlyEncoding};
 use crate::error::{Error, Result};
 use crate::mesh::attributes::{
-    Attribute, AttributeValues, Attributes, ListValues, ScalarType, with_scalars,
+    Attribute, AttributeValues, Attributes, ListValues, ScalarType, ScalarValues, with_scalars,
 };
 use std::io::{self, Write};
 
 /// Refuses a mesh whose PLY file could not be read again.
-pub(in super::super) fn check(mesh: &MeshData) -> Result<()> {
+pub(crate) fn check(mesh: &MeshData) -> Result<()> {
     if mesh.position_type == ScalarType::F32 {
         check_single_precision(mesh)?;
     }
@@ -72,7 +72,7 @@ fn is_word(name: &str) -> bool {
 }
 
 /// Writes `mesh`, which has passed [`check`].
-pub(in super::super) fn write(mesh: &MeshData, out: &mut impl Write) -> io::Result<()> {
+pub(crate) fn write(mesh: &MeshData, out: &mut impl Write) -> io::Result<()> {
     let details = &mesh.ply;
     let encoding = details.encoding;
     let is_single = mesh.position_type == ScalarType::F32;
@@ -153,7 +153,7 @@ fn split(attributes: &Attributes, before: usize) -> (&[Attribute], &[Attribute])
     columns.split_at(before.min(columns.len()))
 }
 
-/// The type the file had for its indices, or the next wider one that can number all vertices.
+/// The type for vertex indices: that of the file that was read, or the next wider type that can number all vertices.
 fn index_type(details: &PlyDetails, vertex_count: usize) -> ScalarType {
     [details.corner_list.index_type, ScalarType::I32]
         .into_iter()

@@ -1,4 +1,4 @@
-//! Numbers, and lists of numbers, of a type that is known at run time.
+//! Arrays of numbers, and of lists of numbers, whose number type is known only at run time.
 
 use crate::error::{Error, Result};
 use std::ops::Range;
@@ -57,18 +57,19 @@ pub enum ScalarValues {
     F64(Vec<f64>),
 }
 
-/// Evaluates `$body` with `$v` bound to the vector inside a [`ScalarValues`], whatever its type.
+/// Evaluates `$body` with `$v` bound to the vector inside a [`ScalarValues`] of any type. The name `ScalarValues`
+/// must be in scope.
 macro_rules! with_scalars {
     ($values:expr, $v:ident => $body:expr) => {
         match $values {
-            $crate::mesh::attributes::ScalarValues::I8($v) => $body,
-            $crate::mesh::attributes::ScalarValues::U8($v) => $body,
-            $crate::mesh::attributes::ScalarValues::I16($v) => $body,
-            $crate::mesh::attributes::ScalarValues::U16($v) => $body,
-            $crate::mesh::attributes::ScalarValues::I32($v) => $body,
-            $crate::mesh::attributes::ScalarValues::U32($v) => $body,
-            $crate::mesh::attributes::ScalarValues::F32($v) => $body,
-            $crate::mesh::attributes::ScalarValues::F64($v) => $body,
+            ScalarValues::I8($v) => $body,
+            ScalarValues::U8($v) => $body,
+            ScalarValues::I16($v) => $body,
+            ScalarValues::U16($v) => $body,
+            ScalarValues::I32($v) => $body,
+            ScalarValues::U32($v) => $body,
+            ScalarValues::F32($v) => $body,
+            ScalarValues::F64($v) => $body,
         }
     };
 }
@@ -98,7 +99,7 @@ impl_number!(f64::round: i8, u8, i16, u16, i32, u32);
 impl_number!(std::convert::identity: f32, f64);
 
 impl ScalarValues {
-    /// No numbers yet, of type `scalar_type`.
+    /// An empty array of the type `scalar_type`.
     #[must_use]
     pub fn new(scalar_type: ScalarType) -> Self {
         Self::with_capacity(scalar_type, 0)
@@ -132,7 +133,7 @@ impl ScalarValues {
         }
     }
 
-    /// How many numbers there are.
+    /// The number of numbers.
     #[must_use]
     pub fn len(&self) -> usize {
         with_scalars!(self, v => v.len())
@@ -150,8 +151,8 @@ impl ScalarValues {
         with_scalars!(self, v => v.get(k).map(|&x| x.to_f64()))
     }
 
-    /// Appends `value`; an integer type gets it rounded to the nearest whole number (halves away
-    /// from zero) and clamped to the type's range, NaN as zero.
+    /// Appends `value`. For an integer type it is rounded to the nearest integer (halves away from zero) and clamped to
+    /// the range of the type; NaN becomes zero.
     pub fn push(&mut self, value: f64) {
         with_scalars!(self, v => v.push(Number::from_f64(value)));
     }
@@ -176,17 +177,17 @@ impl ScalarValues {
     }
 }
 
-/// Lists of numbers of one type: entry `k` is a run of one flat array.
+/// Lists of numbers of one type, stored one after the other in one array.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ListValues {
     count_type: ScalarType,
     items: ScalarValues,
-    /// The end of each list in `items`; a list starts where the one before it ends.
+    /// The end of each list in `items`. A list starts at the end of the list before.
     ends: Vec<usize>,
 }
 
 impl ListValues {
-    /// No lists yet. `count_type` is the type in which a PLY file stores the length of a list.
+    /// An empty array of lists. `count_type` is the type in which a PLY file stores the length of a list.
     ///
     /// # Errors
     /// [`ErrorKind::InvalidInput`](crate::ErrorKind::InvalidInput) when `count_type` is not an integer type.
@@ -194,11 +195,11 @@ impl ListValues {
         Self::from_parts(count_type, ScalarValues::new(item_type), Vec::new())
     }
 
-    /// Lists from their joined `items` and the end of each list therein.
+    /// Makes lists from the `items` of all lists and the end of each list in them.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidInput`](crate::ErrorKind::InvalidInput) when `count_type` is not an integer type, or `ends` decreases or
-    /// does not end at the number of items.
+    /// [`ErrorKind::InvalidInput`](crate::ErrorKind::InvalidInput) when `count_type` is not an integer type, or
+    /// `ends` decreases or does not end at the number of items.
     pub fn from_parts(
         count_type: ScalarType,
         items: ScalarValues,
@@ -231,7 +232,7 @@ impl ListValues {
         &self.items
     }
 
-    /// How many lists there are.
+    /// The number of lists.
     #[must_use]
     pub fn len(&self) -> usize {
         self.ends.len()
@@ -243,7 +244,7 @@ impl ListValues {
         self.ends.is_empty()
     }
 
-    /// Where list `k` lies in [`items`](Self::items); `None` past the end.
+    /// The range of list `k` in [`items`](Self::items); `None` past the end.
     #[must_use]
     pub fn range(&self, k: usize) -> Option<Range<usize>> {
         let end = *self.ends.get(k)?;
@@ -254,7 +255,7 @@ impl ListValues {
         &mut self.items
     }
 
-    /// Makes the items that were pushed since the last call one list.
+    /// Makes one list of the items that were pushed since the last call.
     pub(crate) fn close_list(&mut self) {
         self.ends.push(self.items.len());
     }

@@ -1,28 +1,32 @@
-//! What a patch on a predicted surface must fulfill to be used.
+//! Checks whether a patch on a predicted surface is good enough to be used.
+//!
+//! The patch must be finite, stay near the hole, have few folded triangles, not be much larger than the faired patch,
+//! and not meet the mesh at a sharp angle. Cost: O(n log n) for n triangles. Intersections are checked later, for the
+//! patches of all methods.
 
-use super::march::normal;
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
 use crate::methods::task::Task;
 use crate::patch::PatchSurface;
 
-/// A triangle is folded if its normal makes a cosine below this with the mean of its vertices' normals.
+/// A triangle is folded if the cosine between its normal and the mean normal of its vertices is below this.
 pub(super) const FOLDED: f64 = 0.2;
-/// Share of triangles that may be folded.
+/// Upper bound on the share of folded triangles.
 const FOLDED_SHARE: f64 = 0.03;
-/// As many folded triangles, less the half, are always allowed.
+/// Fewer folded triangles than this are always allowed, in small patches too: that is, two.
 const FOLDED_COUNT: f64 = 2.5;
-/// The patch is bent at a rim edge if its normal makes a cosine below this with that of the mesh.
+/// The patch is bent at a rim edge if the cosine between its normal and the normal of the mesh is below this.
 const BENT: f64 = 0.3;
-/// Share of rim edges at which the patch may be bent, if the faired patch has no more.
+/// Upper bound on the share of rim edges at which the patch is bent. A patch above it is used all the same if the
+/// faired patch is bent at as many edges.
 const BENT_SHARE: f64 = 0.1;
 
-/// How large a patch may be.
+/// Upper bounds on the size of a patch.
 struct Limits {
-    /// Distance from the middle of the rim, in diameters of the rim.
+    /// Distance of a vertex from the middle of the rim, in diameters of the rim.
     reach: f64,
-    /// Area over that of the faired patch.
+    /// Area of the patch, divided by the area of the faired patch.
     area_growth: f64,
 }
 
@@ -37,13 +41,13 @@ const TIP: Limits = Limits {
     area_growth: 40.0,
 };
 
-/// Distance of a tip from the middle of the rim, at most, in diameters of the rim.
+/// Upper bound on the distance of a tip from the middle of the rim, in diameters of the rim.
 pub(super) const TIP_REACH: f64 = 6.0;
 
 /// Checks a patch on a predicted surface against the faired one.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Geometry`] when it may not be used; [`crate::ErrorKind::Cancelled`].
+/// [`crate::ErrorKind::Geometry`], with the reason, when the patch is not to be used; [`crate::ErrorKind::Cancelled`].
 pub(super) fn check(
     task: &Task<'_>,
     patch: &PatchSurface,
@@ -55,7 +59,7 @@ pub(super) fn check(
     let reach = limits.reach * diameter;
     if patch.points.iter().any(|p| (p - middle).norm() > reach) {
         return Err(Error::geometry(
-            "the predicted patch runs away from the hole",
+            "the predicted patch goes too far away from the hole",
         ));
     }
     if !patch.points.iter().flatten().all(|x| x.is_finite()) {
@@ -77,13 +81,13 @@ pub(super) fn check(
     task.job.ask()?;
     if bent > BENT_SHARE && bent > bent_share(task, faired) {
         return Err(Error::geometry(
-            "the predicted patch leaves the rim at an angle",
+            "the predicted patch is bent against the mesh along the rim",
         ));
     }
     Ok(())
 }
 
-/// Share of rim edges at which the patch turns away from the mesh.
+/// The share of rim edges at which the patch is [`BENT`].
 fn bent_share(task: &Task<'_>, patch: &PatchSurface) -> f64 {
     let rim_count = patch.rim_count as u32;
     let mut normals: Vec<([u32; 2], Vec3)> = Vec::new();
@@ -120,7 +124,7 @@ fn area(patch: &PatchSurface) -> f64 {
     patch.triangles.iter().map(double).sum::<f64>() / 2.0
 }
 
-/// Share of triangles that turn away from their surroundings.
+/// The share of triangles that are [`FOLDED`]. Normals of vertices are weighted by the angles of their triangles.
 fn folded_share(patch: &PatchSurface, job: &Job<'_>) -> Result<f64> {
     let mut at_vertices = vec![Vec3::zeros(); patch.points.len()];
     for t in &patch.triangles {
@@ -139,4 +143,10 @@ fn folded_share(patch: &PatchSurface, job: &Job<'_>) -> Result<f64> {
     };
     let folded = patch.triangles.iter().filter(|t| is_folded(t)).count();
     Ok(folded as f64 / patch.triangles.len().max(1) as f64)
+}
+
+/// The unit normal of a triangle.
+pub(super) fn normal(patch: &PatchSurface, t: &[u32; 3]) -> Vec3 {
+    let [a, b, c] = t.map(|v| &patch.points[v as usize]);
+    unit(cross_normal(a, b, c))
 }

@@ -1,54 +1,67 @@
-//! Moves a patch onto a predicted surface: short Newton steps, refinement as the patch grows, a blend into the rim.
+//! Moves a patch onto a predicted surface.
+//!
+//! Interior vertices take short Newton steps toward the surface. The patch is refined after each round of steps,
+//! because it grows. Places where it folds are smoothed. At the end the offsets of the rim from the surface are
+//! extended over the interior and added there, so that the patch meets the rim.
+//!
+//! Cost: some ten evaluations of the surface for each new vertex and round; the blend is one sparse linear system. Not
+//! guaranteed: that the patch reaches the right sheet of the surface. [`check`] rejects most patches that do not.
 
-use super::gates::{FOLDED, check};
+use super::gates::{FOLDED, check, normal};
 use super::surface::Implicit;
 use super::surface::project::project;
 use super::surface::tip::Tip;
 use crate::error::{Error, Result};
 use crate::fair::kharmonic::{extend_from_rim, extend_with_slope};
 use crate::math::sparse::SpdSolver;
-use crate::math::{Vec3, cross_normal, unit};
+use crate::math::{Vec3, unit};
 use crate::methods::start::refine_again;
 use crate::methods::task::Task;
 use crate::patch::PatchSurface;
 
-/// Rounds of moving and refining, at most.
+/// Upper bound on the rounds of moving and refining.
 const MOST_ROUNDS: usize = 5;
-/// Newton steps of each round and of the last projection.
+/// Newton steps of a vertex in each round.
 const STEPS: usize = 10;
+/// Newton steps of a vertex after the last round, and of the points that measure offsets.
 const LAST_STEPS: usize = 6;
 /// Longest Newton step, in diameters of the rim.
 const LONGEST_STEP: f64 = 0.05;
-/// A round in which no vertex moves further than this, in rim edge lengths, and the number of triangles changes by
-/// less than the second number, as a share, is the last.
+/// The rounds end when no vertex moved further than `SETTLED_MOVE` (in mean rim edge lengths) and the number of
+/// triangles changed by less than the share `SETTLED_GROWTH`.
 const SETTLED_MOVE: f64 = 0.02;
 const SETTLED_GROWTH: f64 = 0.01;
-/// Fewer interior vertices than this give a tip no shape: the start is refined once more, to edges shorter by the
-/// factor.
+/// A start patch with fewer interior vertices than this cannot take the shape of a tip. It is refined first.
 const FEWEST_INTERIOR: usize = 3;
+/// Factor on the target edge lengths while a start patch for a tip is refined.
 const FINER_TIP: f64 = 0.6;
-/// The same for rims of up to five edges without an interior vertex: refinement splits their edges only above 1.75
-/// target lengths, and a regular pentagon, whose diagonals have 1.62 sides, is a missing vertex with its triangles.
+/// Factor on the target edge lengths while a start patch without interior vertices is refined. Refinement splits an
+/// edge only above 1.75 target lengths. A hole with the rim of a regular pentagon is often one missing vertex, but the
+/// diagonals of the pentagon have only 1.62 sides.
 const FINER_RIM: f64 = 0.8;
 
-/// Smoothings of folded places, at most, each time.
+/// Upper bound on the rounds of smoothing folded places, each time that folds are searched.
 const MOST_UNFOLDINGS: usize = 20;
 
 /// Moves patches onto a surface.
 pub(super) struct Marcher<'a> {
-    /// The hole; of a face between creases, the face.
+    /// The hole to fill. For a piece of a hole between creases, the piece.
     pub(super) task: &'a Task<'a>,
     pub(super) surface: &'a dyn Implicit,
     /// Mean edge length at the rim.
     pub(super) step: f64,
     pub(super) tip: Option<Tip>,
-    /// Whether what the rim is off the surface goes on with the slope that it has there: detail, as opposed to noise.
+    /// Whether the offsets of the rim are continued with their slope. True where they are detail and not noise.
     pub(super) joins_with_slope: bool,
 }
 
 impl Marcher<'_> {
-    /// Marches from `patch`, whose vertices (or those of its rim) have the target edge lengths `sizes`, and checks the
-    /// result against the faired patch.
+    /// Moves `patch` onto the surface and checks the result against the patch `faired`. `sizes` are the target edge
+    /// lengths of the patch's vertices, or of its rim vertices only.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Geometry`] when a vertex goes to infinity or the patch fails [`check`]; those of refinement
+    /// and of the linear solver; [`crate::ErrorKind::Cancelled`].
     pub(super) fn patch(
         &self,
         mut patch: PatchSurface,
@@ -79,7 +92,7 @@ impl Marcher<'_> {
             let longest = self.project(&mut patch.points[rim_count..], STEPS, limit)?;
             if !patch.points.iter().flatten().all(|x| x.is_finite()) {
                 return Err(Error::geometry(
-                    "the patch ran away from the predicted surface",
+                    "the patch diverged from the predicted surface",
                 ));
             }
             self.unfold(&mut patch, limit)?;
@@ -97,8 +110,8 @@ impl Marcher<'_> {
         Ok(patch)
     }
 
-    /// Raises a patch over a tip to a cone with the same apex: from a flat patch steps along the gradients of a steep
-    /// surface lead sideways.
+    /// Raises the patch to a cone with the apex of the tip. From a flat patch, steps along the gradients of a steep
+    /// surface would lead sideways.
     fn raise(&self, patch: &mut PatchSurface, tip: &Tip) -> Result<()> {
         let (rim, interior) = patch.points.split_at_mut(patch.rim_count);
         let to_rim = |p: &Vec3| {
@@ -117,7 +130,7 @@ impl Marcher<'_> {
         Ok(())
     }
 
-    /// Moves points onto the surface; returns the longest way.
+    /// Moves the points onto the surface and returns the longest distance that one moved.
     fn project(&self, points: &mut [Vec3], steps: usize, limit: f64) -> Result<f64> {
         let mut longest: f64 = 0.0;
         for p in points {
@@ -129,7 +142,7 @@ impl Marcher<'_> {
         Ok(longest)
     }
 
-    /// Smooths the patch where its triangles turn against the surface, and moves it back onto that.
+    /// Smooths the patch where its triangles are turned against the surface, and moves it back onto the surface.
     fn unfold(&self, patch: &mut PatchSurface, limit: f64) -> Result<()> {
         let gradient = |p: &Vec3| unit(self.surface.value_and_gradient(p).1);
         let mut gradients = Vec::with_capacity(patch.points.len());
@@ -173,7 +186,7 @@ impl Marcher<'_> {
         Ok(())
     }
 
-    /// Adds to the interior what the rim is off the surface, extended inwards.
+    /// Extends the offsets of the rim from the surface over the interior, and adds them there.
     fn blend(&self, patch: &mut PatchSurface, limit: f64) -> Result<()> {
         let rim_count = patch.rim_count;
         if patch.points.len() == rim_count {
@@ -183,13 +196,12 @@ impl Marcher<'_> {
         let mut solver = SpdSolver::new(self.task.job);
         let extended = if self.joins_with_slope {
             let surroundings = &self.task.hole.surroundings;
-            // No other ring has a say in the slope.
-            let is_first = |&v: &usize| surroundings.levels[v] == 1;
-            let first: Vec<usize> = (0..surroundings.points.len()).filter(is_first).collect();
-            let points: Vec<Vec3> = first.iter().map(|&v| surroundings.points[v]).collect();
-            let mut around = vec![Vec3::zeros(); surroundings.points.len()];
+            // The slope depends on the first ring only.
+            let first = surroundings.vertices_in(1..2);
+            let points: Vec<Vec3> = first.iter().map(|&v| surroundings.point(v)).collect();
+            let mut around = vec![Vec3::zeros(); surroundings.outer().len()];
             for (v, offset) in first.into_iter().zip(self.offsets(&points, limit)?) {
-                around[v] = offset;
+                around[v as usize - rim_count] = offset;
             }
             extend_with_slope(patch, surroundings, &at_rim, &around, &mut solver)?
         } else {
@@ -201,16 +213,10 @@ impl Marcher<'_> {
         Ok(())
     }
 
-    /// What the points are off the surface.
+    /// The vectors from the surface to the points.
     fn offsets(&self, points: &[Vec3], limit: f64) -> Result<Vec<Vec3>> {
         let mut projected = points.to_vec();
         self.project(&mut projected, LAST_STEPS, limit)?;
         Ok(points.iter().zip(&projected).map(|(p, q)| p - q).collect())
     }
-}
-
-/// The unit normal of a triangle.
-pub(super) fn normal(patch: &PatchSurface, t: &[u32; 3]) -> Vec3 {
-    let [a, b, c] = t.map(|v| &patch.points[v as usize]);
-    unit(cross_normal(a, b, c))
 }

@@ -1,9 +1,14 @@
-//! Predicts the surface that was there and moves a patch onto it.
+//! The methods `auto` and `curvature`: they predict the missing surface and put a patch onto it.
 //!
-//! The surroundings are read through [`SampledBand`]; candidate surfaces compete in leave-out cross-validation on the
-//! rings round the hole ([`choice`]). A faired patch is then marched onto the winner in short steps, refined as it
-//! grows, and blended into the rim ([`march`]). What comes out passes the [`gates`] or is not used: then the simpler
-//! methods follow. Where creases run into the hole, they are continued across it ([`creases`]).
+//! 1. Read the rings of vertices round the hole ([`SampledBand`]).
+//! 2. `auto` chooses one of several candidate surfaces by leave-out cross-validation on these rings ([`choice`]).
+//!    `curvature` always takes an interpolating function.
+//! 3. If creases run into the hole, `auto` continues them and fills the pieces between them ([`creases`]).
+//! 4. Otherwise a faired patch is moved onto the surface in short steps, refined as it grows, and blended into the
+//!    rim ([`march`]).
+//! 5. A patch that fails a check ([`gates`]) is not used. The next method in the list of fallbacks is tried.
+//!
+//! Details, sources, cost and limits: `docs/methods/auto.md`.
 
 mod creases;
 mod gates;
@@ -20,7 +25,7 @@ use super::task::Task;
 use crate::error::{Error, ErrorKind, Result};
 use crate::fair::kharmonic::Order;
 use crate::patch::PatchSurface;
-use crate::surroundings::Band;
+use crate::surroundings::fits::QuadricFits;
 use creases::Creases;
 use gates::TIP_REACH;
 use march::Marcher;
@@ -30,27 +35,28 @@ use surface::choice::Score;
 use surface::flat_rim::RimPlane;
 use surface::samples::SampledBand;
 use surface::tip::{self, Stump};
-use surface::{Implicit, choice, flat_rim};
+use surface::{Implicit, RINGS, choice, flat_rim};
 
-/// The best of many candidates.
+/// Chooses the best of many candidate surfaces.
 pub(super) const AUTO: MethodSpec = MethodSpec {
     name: "auto",
     make: |task| make(task, true),
     ..CURVATURE
 };
 
-/// One interpolating function, and no choice.
+/// Always takes an interpolating function.
 pub(super) const CURVATURE: MethodSpec = MethodSpec {
     name: "curvature",
-    reach: |_| HoleReach::rings(choice::RINGS),
+    reach: |_| HoleReach::rings(RINGS),
     falls_back_to: STAIRCASE,
     farthest: FARTHEST,
     make: |task| make(task, false),
     ..MethodSpec::USUAL
 };
 
-/// How far a patch may go from the middle of the rim, in diameters of the rim. It has passed gates of its own: the
-/// missing end of a horn is several times as long as its rim is wide.
+/// Upper bound on the distance of a patch vertex from the middle of the rim, in the unit of [`MethodSpec::farthest`].
+/// It is larger than for other methods: the missing end of a horn is several times as long as its rim is wide. The
+/// [`gates`] have bounds of their own.
 const FARTHEST: f64 = 3.0;
 
 fn make(task: &Task<'_>, chooses: bool) -> Result<PatchSurface> {
@@ -66,12 +72,12 @@ fn make(task: &Task<'_>, chooses: bool) -> Result<PatchSurface> {
     patch
 }
 
-/// Predicts the surface in one hole.
+/// The work on one hole.
 struct Auto<'a> {
     task: &'a Task<'a>,
-    /// Whether candidates compete; else the interpolating function is taken.
+    /// Whether candidates compete. If not, an interpolating function is taken.
     chooses: bool,
-    /// How the surface was predicted, once it was.
+    /// What the report says of the prediction; `None` before the choice.
     prediction: Option<Prediction>,
 }
 
@@ -85,9 +91,9 @@ impl Auto<'_> {
         let task = self.task;
         let lengths = &task.hole.edge_lengths;
         let step = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
-        let band = Band::new(self.task.hole, self.task.job)?;
+        let fits = QuadricFits::new(&self.task.hole.surroundings, self.task.job)?;
         let mut samples = SampledBand::new(
-            band,
+            fits,
             self.task.hole,
             step,
             task.options.methods.auto.jets,
@@ -120,7 +126,8 @@ impl Auto<'_> {
             None => candidate.fit_to_rim(&mut samples)?,
         };
         self.task.job.ask()?;
-        let surface = surface.ok_or_else(|| Error::geometry("no surface fits the surroundings"))?;
+        let surface =
+            surface.ok_or_else(|| Error::geometry("no surface fits the mesh round the hole"))?;
         let (_, diameter) = self.task.hole.middle_and_diameter();
         let tip = stump.and_then(|s| s.tip_on(surface.as_ref(), diameter, TIP_REACH * diameter));
         if let Some(prediction) = &mut self.prediction {
@@ -151,9 +158,11 @@ impl Auto<'_> {
         }
     }
 
-    /// The patch on the predicted surface where the march from the faired patch failed: from one with common
-    /// curvature, which rises higher over a cap that is more than half a sphere, or from one that is swept across
-    /// the hole, which follows a rim that winds round a tube where a faired patch cuts through it.
+    /// A second and a third try, for holes where the march from the first faired patch failed.
+    ///
+    /// The second starts from a patch that was faired with common curvature. It rises higher, which helps where a cap
+    /// of more than half a sphere is missing. The third starts from a patch that is swept across the hole. It follows
+    /// a rim that winds round a tube; a faired patch would cut through the tube.
     fn march_again(&self, marcher: &Marcher<'_>, taut: &PatchSurface) -> Result<PatchSurface> {
         let task = self.task;
         let start = faired(task, Order::Three)?;
@@ -168,15 +177,15 @@ impl Auto<'_> {
     }
 }
 
-/// The method whose patches are swept across the hole.
+/// The method that makes the start of the third try.
 const SWEPT: Method = Method::Hpde;
 
-/// Candidate, scores, and the stump of a horn if the hole may be its tip.
+/// The chosen candidate, the scores, and the stump if the hole may be the missing tip of a horn.
 type Chosen = (Candidate, Vec<Score>, Option<Stump>);
 
 impl Auto<'_> {
-    /// The patch that continues creases across the hole, if there are any and they are good enough; what speaks
-    /// against them is noted in the prediction.
+    /// The patch that continues creases across the hole; `None` when there are no creases or they cannot be used.
+    /// The prediction then says why they were not used.
     fn patch_with_creases(
         &mut self,
         step: f64,
@@ -209,7 +218,7 @@ impl Auto<'_> {
         }
     }
 
-    /// The plane of the rim where the hole is a gap in a flat face and no surface predicts as well as exactly.
+    /// The plane of the rim, if the hole is a gap in a flat face and no candidate is as good as exact.
     fn flat_face(&self, smooth_score: Option<f64>) -> Option<RimPlane> {
         let options = &self.task.options.methods.auto;
         let is_asked = self.chooses && options.candidate.is_none() && options.primitives;
@@ -225,7 +234,7 @@ impl Auto<'_> {
         let options = &self.task.options.methods.auto;
         let is_noisy = samples.is_noisy();
         if let Some(candidate) = options.candidate {
-            return Ok((candidate, Vec::new(), self.stump(samples)));
+            return Ok((candidate, Vec::new(), self.stump()));
         }
         if !self.chooses {
             let is_smoothed = is_noisy || samples.is_detail_misleading();
@@ -241,18 +250,20 @@ impl Auto<'_> {
             .filter(|c| options.allows(*c, samples))
             .collect();
         let scores = choice::scores(samples, &candidates)?;
-        let stump = self.stump(samples);
+        let stump = self.stump();
         let closing = stump
             .filter(|_| !choice::is_exact(&scores))
             .and_then(|_| tip::closing_candidate(&scores));
         let chosen = closing
             .or_else(|| choice::choose(&scores, is_noisy))
-            .ok_or_else(|| Error::geometry("the surroundings are too small to predict from"))?;
+            .ok_or_else(|| {
+                Error::geometry("the mesh round the hole is too small to predict a surface")
+            })?;
         Ok((chosen, scores, stump))
     }
 
-    fn stump(&self, samples: &SampledBand) -> Option<Stump> {
+    fn stump(&self) -> Option<Stump> {
         let is_asked_for = self.task.options.methods.auto.tips;
-        is_asked_for.then(|| tip::find_stump(self.task.hole, &samples.band))?
+        is_asked_for.then(|| tip::find_stump(self.task.hole))?
     }
 }

@@ -1,4 +1,4 @@
-//! Options of the methods that predict the surface.
+//! The options of `auto` and `curvature`, the methods that predict the missing surface.
 
 use super::surface::candidates::Candidate;
 use super::surface::samples::SampledBand;

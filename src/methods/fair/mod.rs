@@ -1,7 +1,10 @@
-//! The practical methods: triangulate, refine, fair.
+//! The methods `membrane`, `fair-c1` and `fair-c2`: triangulate the rim, refine the triangulation, fair the result.
 //!
-//! Based on: P. Liepa, "Filling holes in meshes", SGP 2003. Unlike there, the patch is refined again while it takes
-//! shape, so that its triangles are as regular on the final surface as they were on the first one.
+//! Fairing moves the new vertices to the minimum of an energy. Its order decides how smoothly the patch meets the mesh:
+//! in position, in tangent plane, or in curvature.
+//!
+//! Source: P. Liepa, "Filling holes in meshes", SGP 2003. There the patch is refined once. Here it is refined again
+//! after a first fairing ([`refined`]), so that its triangles are regular on the final surface too.
 
 pub(crate) mod options;
 
@@ -17,7 +20,7 @@ use crate::methods::auto::prediction::Prediction;
 use crate::patch::PatchSurface;
 use options::FairWeights;
 
-/// The membrane: continuous with the surroundings.
+/// Meets the rim, but may have a crease there.
 pub(super) const MEMBRANE: MethodSpec = MethodSpec {
     name: "membrane",
     falls_back_to: &[Method::Flat],
@@ -25,7 +28,7 @@ pub(super) const MEMBRANE: MethodSpec = MethodSpec {
     ..MethodSpec::USUAL
 };
 
-/// Common tangent planes along the rim.
+/// Has common tangent planes with the mesh along the rim.
 pub(super) const FAIR_C1: MethodSpec = MethodSpec {
     name: "fair-c1",
     falls_back_to: STAIRCASE.split_at(2).1,
@@ -33,7 +36,7 @@ pub(super) const FAIR_C1: MethodSpec = MethodSpec {
     ..MethodSpec::USUAL
 };
 
-/// Common curvature along the rim.
+/// Has common curvature with the mesh along the rim.
 pub(super) const FAIR_C2: MethodSpec = MethodSpec {
     name: "fair-c2",
     reach: |_| HoleReach::rings(2),
@@ -41,7 +44,7 @@ pub(super) const FAIR_C2: MethodSpec = MethodSpec {
     make: |task| {
         if task.known().is_some_and(|p: Prediction| p.is_noisy()) {
             return Err(Error::geometry(
-                "the surroundings are too noisy to read curvature from",
+                "the mesh round the hole is too noisy to estimate curvature",
             ));
         }
         faired(task, Order::Three)
@@ -49,7 +52,7 @@ pub(super) const FAIR_C2: MethodSpec = MethodSpec {
     ..MethodSpec::USUAL
 };
 
-/// The refined patch, faired to meet its surroundings as smoothly as `order` says.
+/// The start patch, faired with the energy of the given order.
 ///
 /// # Errors
 /// Those of triangulation, refinement and fairing; [`crate::ErrorKind::Cancelled`].
@@ -61,8 +64,11 @@ pub(super) fn faired(task: &Task<'_>, order: Order) -> Result<PatchSurface> {
         FairWeights::Lumped => Weights::Cotangent,
         FairWeights::Voronoi => Weights::Voronoi,
     };
-    let passes = [Order::Two, order];
-    let passes = &passes[usize::from(order != Order::Three)..];
+    // The second pass of order three has the weights of the shape that the first pass gives.
+    let passes: &[Order] = match order {
+        Order::Three => &[Order::Two, Order::Three],
+        Order::One | Order::Two => &[order],
+    };
     let skipped = passes.len().saturating_sub(options.passes);
     for &order in &passes[skipped..] {
         fair(

@@ -1,13 +1,13 @@
-//! Options of the faired methods.
+//! The options of the faired methods.
 
 use crate::options::entry::{choice, options};
 
-/// Weights of the Laplacian: cotangents over areas in each case.
+/// The weights of the Laplacian. They are cotangents divided by the area of a vertex, which is defined in two ways.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FairWeights {
-    /// Over a third of the triangles' areas, limited so that the equations stay definite.
+    /// A third of the area of the triangles round the vertex. Weights are limited, so that the equations stay definite.
     Lumped,
-    /// Over the areas of Voronoi cells, not limited: those of CGAL, for comparison with it.
+    /// The area of the Voronoi cell, as in CGAL, for comparison with it. Weights are not limited.
     Voronoi,
 }
 

@@ -1,6 +1,8 @@
-//! The triangulation of least weight, without new vertices.
+//! The method `flat`: the minimum-weight triangulation of the rim, without new vertices.
 //!
-//! Based on: G. Barequet, M. Sharir, "Filling gaps in the boundary of a polyhedron", CAGD 12(2), 1995.
+//! Large rims are reduced by ear clipping first; the rest is searched exhaustively. Source: G. Barequet, M. Sharir,
+//! "Filling gaps in the boundary of a polyhedron", CAGD 12(2), 1995. Cost: cubic in the number of vertices that are
+//! searched exhaustively.
 
 pub(crate) mod options;
 
@@ -14,5 +16,5 @@ pub(super) const FLAT: MethodSpec = MethodSpec {
     ..MethodSpec::USUAL
 };
 
-/// Polygon vertices that ear clipping leaves to the exhaustive search.
+/// Number of rim vertices that ear clipping leaves to the exhaustive search.
 const EAR_REMAINDER: usize = 64;

@@ -1,4 +1,4 @@
-//! Options of the flat triangulation.
+//! The options of the method `flat`.
 
 use crate::options::entry::options;
 

@@ -1,13 +1,15 @@
-//! GREY: the sections of a hole are continued from both ends by a grey model of the angles at which they turn.
+//! The method `grey`: continues the known surface across the hole by grey prediction of angles.
 //!
-//! Based on: L.-C. Wang, Y.-C. Hung, "Hole filling of triangular mesh segments using systematic grey prediction",
+//! The angles by which the known surface turns from sample to sample along a section plane are a series. A grey model
+//! is fitted to it and predicts the next angles. The section is continued in this way from both ends; the gap between
+//! the two halves is distributed over the section. All other steps are those of [`sections`](super::sections).
+//!
+//! Source: L.-C. Wang, Y.-C. Hung, "Hole filling of triangular mesh segments using systematic grey prediction",
 //! Computer-Aided Design 44(12), 2012, as W.-C. Xie and X.-F. Zou describe it (Computer-Aided Design 45, 2013,
-//! sections 2 and 5.2.3): a new point is found by predicting the included angle from the points next to it on one side
-//! of the rim, in the plane of the normal. The model is GM(1,1) of J.-L. Deng, "Control problems of grey systems",
-//! Systems & Control Letters 1(5), 1982. `docs/methods/grey.md` says how what the descriptions leave open is decided.
+//! sections 2 and 5.2.3). The model is GM(1,1) of J.-L. Deng, "Control problems of grey systems", Systems & Control
+//! Letters 1(5), 1982. `docs/methods/grey.md` says how open points of these descriptions are decided.
 //!
-//! `O(1)` per predicted point. Not guaranteed: that the two sides meet; what they miss each other by is spread over
-//! the section.
+//! Cost: `O(1)` for each predicted point. Not guaranteed: that the two halves of a section nearly meet.
 
 pub(crate) mod options;
 
@@ -28,17 +30,16 @@ pub(super) const GREY: MethodSpec = MethodSpec {
     ..MethodSpec::USUAL
 };
 
-/// Rings of known triangles that are read: those that six steps outwards pass.
+/// Rings of known triangles that are read. Six steps outward pass them.
 const RING_COUNT: u32 = 7;
 
-/// Known angles that a series needs: with fewer, the two coefficients of the model are not determined.
+/// Lower bound on the known angles of a series. Fewer do not determine the two coefficients of the model.
 const SHORTEST_SERIES: usize = 4;
 
-/// A predicted angle is at most this many times the largest known one: the model is an exponential.
+/// Upper bound on a predicted angle, divided by the largest known angle. The model is exponential and could grow
+/// without bound.
 const MOST_GROWTH: f64 = 2.0;
 
-/// Sections, triangulation and optimization are those of [`sections`](super::sections).
-///
 /// # Errors
 /// Those of [`patch_along`].
 fn make(task: &Task<'_>) -> Result<PatchSurface> {
@@ -58,8 +59,8 @@ fn make(task: &Task<'_>) -> Result<PatchSurface> {
     patch_along(task, task.options.methods.sections(), &curves)
 }
 
-/// The points of a section: the first half continues the known surface before the first end, the second half that
-/// before the second one.
+/// The points of a section. The first half continues the known surface at the first end, the second half that at the
+/// second end.
 fn continued(section: &Prepared, known: &[Vec<Known>; 2]) -> Vec<Vec3> {
     let m = section.count;
     let [near, far] = [0, 1].map(|side| {
@@ -69,7 +70,7 @@ fn continued(section: &Prepared, known: &[Vec<Known>; 2]) -> Vec<Vec3> {
         let turns = turns(section, end, tangent, &known[side]);
         continue_line(&GreyModel::fit(&turns), end, tangent, section.step(), m + 1)
     });
-    // Both lines have m points and the other end; the gap is what each misses that end by.
+    // Both lines have m points and one more, which should be the other end. The gap is its distance from there.
     let miss = |line: &[[f64; 2]], end: [f64; 2]| {
         line.last()
             .map_or([0.0; 2], |p| [end[0] - p[0], end[1] - p[1]])
@@ -91,15 +92,15 @@ fn continued(section: &Prepared, known: &[Vec<Known>; 2]) -> Vec<Vec3> {
         .collect()
 }
 
-/// The angles by which the known surface turns from step to step in the section plane, inwards: the last one is that
-/// up to the rim at `end`, where the tangent has the direction `tangent`.
+/// The angles by which the known surface turns from sample to sample in the section plane, in order toward the hole.
+/// The last one leads to the rim at `end`, where the tangent has the direction `tangent`.
 fn turns(section: &Prepared, end: [f64; 2], tangent: f64, known: &[Known]) -> Vec<f64> {
     let mut last = section.origin + section.x * end[0] + section.y * end[1];
     let mut directions = vec![tangent];
     for place in known {
         let along = place.normal.cross(&section.ahead);
-        let inwards = along.dot(&(last - place.point)).signum() * along;
-        directions.push(inwards.dot(&section.y).atan2(inwards.dot(&section.x)));
+        let inward = along.dot(&(last - place.point)).signum() * along;
+        directions.push(inward.dot(&section.y).atan2(inward.dot(&section.x)));
         last = place.point;
     }
     directions
@@ -109,8 +110,8 @@ fn turns(section: &Prepared, end: [f64; 2], tangent: f64, known: &[Known]) -> Ve
         .collect()
 }
 
-/// `count` points that continue a line from `end` on, each `step` from the one before: the tangent there has the
-/// direction `tangent`, and turns by what `model` predicts from each point to the next one.
+/// `count` points that continue a line from `end`, each at the distance `step` from the one before. The tangent at
+/// `end` has the direction `tangent`. From each point to the next it turns by the angle that `model` predicts.
 fn continue_line(
     model: &GreyModel,
     end: [f64; 2],
@@ -131,25 +132,25 @@ fn continue_line(
         .collect()
 }
 
-/// The same angle between -π and π.
+/// The angle, reduced to the range from -π to π.
 fn wrapped(angle: f64) -> f64 {
     angle - (2.0 * PI) * (angle / (2.0 * PI)).round()
 }
 
-/// GM(1,1): the running sums of a positive series satisfy `x' + a x = b`.
+/// The grey model GM(1,1): the running sums `x` of a positive series satisfy `x' + a x = b`.
 struct GreyModel {
     first: f64,
     a: f64,
     b: f64,
-    /// What was added to make the series positive.
+    /// Added to each value to make the series positive.
     shift: f64,
     known: usize,
     largest: f64,
 }
 
 impl GreyModel {
-    /// Fits `a` and `b` by least squares to `x0(k) + a z(k) = b`, `z(k)` being the mean of consecutive sums. A series
-    /// that is too short is continued by its mean.
+    /// Fits `a` and `b` by least squares to `x0(k) + a z(k) = b`, where `z(k)` is the mean of two consecutive sums. A
+    /// series that is too short is continued by its mean.
     fn fit(series: &[f64]) -> Self {
         let largest = series.iter().fold(0.0, |l: f64, x| l.max(x.abs()));
         let mean = series.iter().sum::<f64>() / series.len().max(1) as f64;
@@ -164,7 +165,7 @@ impl GreyModel {
         if series.len() < SHORTEST_SERIES || largest == 0.0 {
             return constant;
         }
-        // Twice the largest one keeps the sums far from zero.
+        // A shift of twice the largest value keeps the sums far from zero.
         let shift = 2.0 * largest;
         let positive: Vec<f64> = series.iter().map(|x| x + shift).collect();
         let mut sum = positive[0];
@@ -191,9 +192,9 @@ impl GreyModel {
         }
     }
 
-    /// The value `ahead` places after the first unknown one.
+    /// Predicts the value that comes `ahead` places after the first unknown one.
     fn predict(&self, ahead: usize) -> f64 {
-        // Below this the exponential is a line to double precision.
+        // For a smaller `a` the exponential is a line in double precision.
         let value = if self.a.abs() < 1e-9 {
             self.b
         } else {

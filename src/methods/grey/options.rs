@@ -1,4 +1,4 @@
-//! Options of GREY.
+//! The options of the method `grey`.
 
 use crate::options::entry::options;
 

@@ -1,12 +1,16 @@
-//! Step 5, second half: the heights of a section's points by differential evolution.
+//! Step 5, second half: finds the heights of a section's points by differential evolution.
+//!
+//! An individual is a list of heights. A mutant is an individual plus a weighted difference of two others; a trial
+//! takes some of its heights. The trial replaces its parent if its objective, the largest angle between consecutive
+//! edges of the section, is not larger.
 //!
 //! Sources: W.-C. Xie, X.-F. Zou, "A triangulation-based hole patching method using differential evolution",
 //! Computer-Aided Design 45, 2013, algorithm 1 and equations 2 to 7, 14 and 16; R. Storn, K. Price, "Differential
 //! evolution - a simple and efficient heuristic for global optimization over continuous spaces", Journal of Global
 //! Optimization 11, 1997.
 //!
-//! A generation costs `O(N m)` for `N` individuals of `m` heights. Not guaranteed: that the minimum is reached;
-//! the best objective never gets worse.
+//! Cost: `O(N m)` for a generation of `N` individuals with `m` heights. Not guaranteed: that the minimum is reached.
+//! The best objective never gets worse.
 
 use super::options::{DeCrossover, DeMutation, HpdeOptions};
 use crate::error::Result;
@@ -15,35 +19,34 @@ use crate::methods::sections::arcs::Profile;
 use rand::{Rng, RngExt};
 use std::f64::consts::{PI, TAU};
 
-/// Individuals at most: with `N` growing with the section the cost of a point would too. The published sections have
-/// up to 14 points, and so up to 42 individuals.
+/// Upper bound on the individuals. Without it the cost of a point would grow with the length of its section. The
+/// sections of the paper have up to 14 points, that is, up to 42 individuals.
 const MOST_INDIVIDUALS: usize = 42;
 
-/// Individuals that `rand/2` needs to choose five different ones besides the parent.
+/// Lower bound on the individuals. `rand/2` chooses five different ones besides the parent.
 const FEWEST_INDIVIDUALS: usize = 6;
 
-/// The first individuals lie round the start of equation 16, at most this part of the distance of the arcs away. Twice
-/// as far, and the errors of some seeds are more than 5 % from that of the default one: with the published `CR` the
-/// search stalls where no single height can improve, and where that is depends on where it began.
+/// Upper bound on the distance of the first individuals from the start of equation 16, as a share of the distance
+/// between the arcs. With the published `CR`, the search stops where no single height can improve; that depends on the
+/// start. With twice this value, the errors of some seeds differ by more than 5 % from that of the default seed.
 const INITIAL_SPREAD: f64 = 0.05;
 
-/// The population has converged when its objectives differ by less than this part of the best one.
+/// The population has converged when its objectives differ by at most this share of the best one.
 const CONVERGED: f64 = 1e-3;
 
-/// Arcs that are nowhere further apart than this, in mean rim edge lengths, leave nothing to choose: the distance
-/// is far below what a triangle of that size can resolve.
+/// If the distance between the arcs is nowhere larger than this, in mean rim edge lengths, nothing is searched.
 const NO_CHOICE: f64 = 1e-6;
 
-/// What the search found.
+/// The result of the search.
 #[derive(Clone, Debug)]
 pub(super) struct Heights {
     pub(super) values: Vec<f64>,
-    /// Largest turn between consecutive edges of the section, in radians: the objective of equation 14. First that of
-    /// the initial population, then after each generation.
+    /// The best objective (equation 14) of the initial population and after each generation: the largest angle between
+    /// consecutive edges of the section, in radians.
     pub(super) history: Vec<f64>,
 }
 
-/// Heights between the bounds of `profile` that make the largest angle between consecutive edges small.
+/// Searches heights between the bounds of `profile` that make the largest angle between consecutive edges small.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Cancelled`].
@@ -101,7 +104,7 @@ pub(super) fn evolve(
 #[derive(Clone)]
 struct Individual {
     heights: Vec<f64>,
-    /// The angle to the x axis of each edge: one more than heights.
+    /// The angle of each edge to the x axis, in radians. There is one edge more than heights.
     directions: Vec<f64>,
     objective: f64,
 }
@@ -138,7 +141,7 @@ impl Individual {
         self.directions[edge] = (next_y - y).atan2(next_x - x);
     }
 
-    /// Without new memory.
+    /// Copies `other` without allocating memory.
     fn copy(&mut self, other: &Self) {
         self.heights.copy_from_slice(&other.heights);
         self.directions.copy_from_slice(&other.directions);
@@ -164,7 +167,7 @@ fn best(population: &[Individual]) -> usize {
     best
 }
 
-/// The start of equation 16, and others at random round it.
+/// The first population: the start of equation 16, and random individuals round it.
 fn initial(
     profile: &Profile,
     start: Individual,
@@ -185,7 +188,7 @@ fn initial(
     population
 }
 
-/// What a mutant is made of: the base and the differences, as indices of the population.
+/// A mutant: its base and its differences, as indices of the population. Heights are computed on demand.
 struct Mutant<'a> {
     population: &'a [Individual],
     base: usize,
@@ -206,7 +209,7 @@ impl<'a> Mutant<'a> {
             DeMutation::Rand2 => 2,
             DeMutation::Rand1 | DeMutation::Best1 => 1,
         };
-        // Mutually different, and none is the parent.
+        // All are different, and none is the parent.
         let mut chosen = [parent; 6];
         for k in 1..2 * count + 2 {
             chosen[k] = loop {
@@ -237,7 +240,7 @@ impl<'a> Mutant<'a> {
     }
 }
 
-/// Takes some heights from the mutant, reflected into the bounds by equation 5.
+/// Crossover: takes some heights from the mutant, reflected at the bounds by equation 5.
 fn cross(
     trial: &mut Individual,
     mutant: &Mutant<'_>,
@@ -257,7 +260,7 @@ fn cross(
         } else {
             value
         };
-        // Edge `j + 1` is computed again if its other end moves as well.
+        // Edge `j + 1` is computed again if its other end changes too.
         trial.update(profile, j);
         trial.update(profile, j + 1);
     };

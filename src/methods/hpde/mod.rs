@@ -1,8 +1,11 @@
-//! HPDE: hole patching by sections between facing points of the rim, and differential evolution.
+//! The method `hpde`: hole patching with curves across the hole, whose points are found by differential evolution.
+//!
+//! In each section plane, two circular arcs join the ends; each is tangent to the surface at one end. The points lie
+//! between the arcs, at heights that make the largest angle between consecutive edges small. All other steps are those
+//! of [`sections`](super::sections).
 //!
 //! Source: W.-C. Xie, X.-F. Zou, "A triangulation-based hole patching method using differential evolution",
-//! Computer-Aided Design 45, 2013. Its other steps are those of [`sections`](super::sections);
-//! `docs/methods/hpde.md` lists what is read differently, and why.
+//! Computer-Aided Design 45, 2013. `docs/methods/hpde.md` lists the differences from the paper, with reasons.
 
 mod evolution;
 pub(crate) mod options;
@@ -40,10 +43,10 @@ fn make(task: &Task<'_>) -> Result<PatchSurface> {
     })
 }
 
-/// The points of HPDE: between the arcs, at heights by differential evolution or by its start value alone.
+/// The points of all sections, at heights from differential evolution or from its start value alone.
 ///
 /// # Errors
-/// [`ErrorKind::Cancelled`].
+/// [`crate::ErrorKind::Cancelled`].
 fn evolved(
     sections: &[Prepared],
     options: &HpdeOptions,
@@ -69,7 +72,7 @@ fn evolved(
 }
 
 impl MethodOptions {
-    /// How sections are laid through a hole, by whatever method.
+    /// The options that `hpde`, `grey` and `nurbs` share. They stand in the group `hpde`.
     pub(super) fn sections(&self) -> &SectionOptions {
         &self.hpde.sections
     }

@@ -1,4 +1,4 @@
-//! Options of HPDE.
+//! The options of the method `hpde`.
 
 use crate::methods::sections::options::SectionOptions;
 use crate::options::entry::{Choice, choice, options};
@@ -8,7 +8,7 @@ use crate::options::entry::{Choice, choice, options};
 pub enum HpdeSolver {
     /// Differential evolution, as published.
     De,
-    /// The start value alone: the arcs blended by equation 16.
+    /// The start value alone: the two arcs, blended by equation 16.
     Direct,
 }
 
@@ -31,9 +31,9 @@ pub enum DeMutation {
 /// How differential evolution mixes a mutant with its parent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DeCrossover {
-    /// Each coordinate by itself, equation 3.
+    /// Binomial: each height is chosen by itself, equation 3.
     Bin,
-    /// A run of consecutive coordinates.
+    /// Exponential: a run of consecutive heights is taken from the mutant.
     Exp,
 }
 
@@ -42,7 +42,7 @@ pub enum DeCrossover {
 pub struct DeVariant {
     /// How mutants are made.
     pub mutation: DeMutation,
-    /// How they are mixed with their parents.
+    /// How mutants are mixed with their parents.
     pub crossover: DeCrossover,
 }
 
@@ -69,7 +69,7 @@ impl Choice for DeVariant {
     }
 }
 
-/// The variant as published.
+/// The published variant.
 const PUBLISHED: DeVariant = DeVariant {
     mutation: DeMutation::Rand1,
     crossover: DeCrossover::Bin,

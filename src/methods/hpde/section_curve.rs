@@ -1,8 +1,8 @@
-//! One section by itself: to look at how differential evolution converges, and what it costs.
+//! Predicts one section by itself. It serves experiments on the convergence and the cost of differential evolution.
 
 use super::evolution::evolve;
 use super::options::{HpdeOptions, HpdeSolver};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::math::random::seeded;
 use crate::methods::sections::arcs::{Arc, profile};
@@ -12,19 +12,19 @@ use std::f64::consts::PI;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SectionCurve {
-    /// From the end at the origin to the one at `(length, 0)`, without these.
+    /// The points from the end at the origin to the end at `(length, 0)`, without the ends.
     pub points: Vec<[f64; 2]>,
-    /// The objective of equation 14, the largest angle in radians between consecutive edges: that of the best
-    /// individual at the start and after each generation. It never rises.
+    /// The objective of equation 14 for the best individual, at the start and after each generation: the largest angle
+    /// between consecutive edges, in radians. It never increases.
     pub largest_turns: Vec<f64>,
 }
 
-/// Predicts `count` points between two ends, `length` mean edge lengths apart, at which the surface rises from the line
-/// between them by the angles `angles`, in radians: the fifth step of [`Method::Hpde`](crate::Method::Hpde). Of the
-/// options the solver and those of differential evolution count.
+/// Predicts `count` points of a section, the fifth step of [`Method::Hpde`](crate::Method::Hpde). `length` is the
+/// distance of the ends in mean edge lengths. `angles` are the angles in radians by which the surface rises from the
+/// line between the ends. Only the solver and the options of differential evolution are read.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidInput`] unless the length is positive and finite and the angles are between -π and π.
+/// [`crate::ErrorKind::InvalidInput`] unless the length is positive and finite and the angles are between -π and π.
 ///
 /// # Complexity
 /// `O(count · generations)`.
@@ -37,10 +37,9 @@ pub fn evolve_section(
 ) -> Result<SectionCurve> {
     let is_sound = length.is_finite() && length > 0.0 && angles.iter().all(|a| a.abs() < PI);
     if !is_sound {
-        return Err(Error::new(
-            ErrorKind::InvalidInput,
-            format!("there is no section of length {length} with the angles {angles:?}"),
-        ));
+        return Err(Error::invalid(format!(
+            "there is no section of length {length} with the angles {angles:?}"
+        )));
     }
     let [first, second] = angles.map(|angle| Arc { length, angle });
     let profile = profile(&first, &second, count);
@@ -63,6 +62,7 @@ pub fn evolve_section(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::ErrorKind;
 
     #[test]
     fn a_circle_is_continued_and_needs_no_generation() {

@@ -1,23 +1,27 @@
-//! The surface over which heights are taken: the reference plane, or a sphere.
+//! The domain of a height field: the reference plane or a fitted sphere, with coordinates `u`, `v` and a height.
+//!
+//! The plane is that of least squares (J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed
+//! from point clouds", 2007, eq. 8). The sphere is fitted to the normals of triangles; it is not in the paper. Cost:
+//! linear in the number of points. Not guaranteed: that the projection to the domain is one-to-one.
 
 use super::vicinity::Vicinity;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::math::{Vec3, cross_normal, unit};
 use crate::triangulate::simple_polygon::Point2;
 use nalgebra::{Matrix3, SymmetricEigen};
 
-/// Radius of the fitted sphere, in extents of the vicinity, from which on it is as good as flat: over the
-/// extent it rises by less than two thousandths of it.
+/// Upper bound on the radius of the fitted sphere, in extents of the vicinity. With a larger radius, the sphere rises
+/// over the vicinity by less than two thousandths of its extent, which is nearly flat.
 const FLAT_RADIUS: f64 = 64.0;
 
-/// A place in the domain: coordinates `u`, `v` and the height `s` over it.
+/// A point in the coordinates of a domain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place {
     pub(crate) uv: Point2,
     pub(crate) height: f64,
 }
 
-/// The surface over which heights are taken, with coordinates in which the patch runs counter-clockwise.
+/// The domain. The rim is counter-clockwise in its coordinates.
 #[derive(Clone, Debug)]
 pub(crate) enum Domain {
     /// Orthographic projection along the third axis.
@@ -26,22 +30,22 @@ pub(crate) enum Domain {
         /// Rows are the axes U, V and S.
         axes: Matrix3<f64>,
     },
-    /// Central projection onto a sphere, with coordinates of equal area round the pole; the height is the
-    /// distance from the centre.
+    /// Central projection to a sphere. The coordinates are those of Lambert's azimuthal projection round a pole, which
+    /// preserves areas. The height is the distance from the center.
     Sphere {
         center: Vec3,
         radius: f64,
-        /// The third row leads to the pole.
+        /// The third row is the direction of the pole.
         axes: Matrix3<f64>,
     },
 }
 
 impl Domain {
-    /// The plane of least squares through the vicinity (eq. 8), with its normal on the side that the patch
-    /// faces. `rim` is the polygon that bounds the patch.
+    /// The least squares plane of the vicinity (eq. 8), with its normal on the side that the patch faces. `rim` is the
+    /// polygon that bounds the patch.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] when the rim encloses no area in the plane.
+    /// [`crate::ErrorKind::Geometry`] when the rim encloses no area in the plane.
     pub(crate) fn plane(vicinity: &Vicinity, rim: &[Vec3]) -> Result<Self> {
         let origin = vicinity.points.iter().sum::<Vec3>() / vicinity.points.len().max(1) as f64;
         let mut scatter = Matrix3::zeros();
@@ -56,7 +60,7 @@ impl Domain {
         let facing = vector_area(rim).dot(&s);
         if !facing.is_finite() || facing == 0.0 {
             let message = "the rim encloses no area in the reference plane";
-            return Err(Error::new(ErrorKind::Geometry, message));
+            return Err(Error::geometry(message));
         }
         Ok(Self::Plane {
             origin,
@@ -64,19 +68,14 @@ impl Domain {
         })
     }
 
-    /// The sphere whose radial lines fit the normals of the vicinity's triangles best: with the centroids `x`
-    /// of the triangles and their normals `n`, the centre `c` and the signed radius `r` minimise
-    /// the sum of `area · |x - c - r n|²`. The pole lies in the direction that the patch faces.
+    /// The sphere that fits the normals of the vicinity's triangles best. With the centroids `x` of the triangles and
+    /// their normals `n`, the center `c` and the signed radius `r` minimize the sum of `area · |x - c - r n|²`. The
+    /// pole lies in the direction that the patch faces.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] when there is no such sphere, or it is as good as flat.
+    /// [`ErrorKind::Geometry`] when there is no such sphere, or it is nearly flat.
     pub(crate) fn sphere(vicinity: &Vicinity, rim: &[Vec3]) -> Result<Self> {
-        let flat = || {
-            Error::new(
-                ErrorKind::Geometry,
-                "the vicinity is not curved like a sphere",
-            )
-        };
+        let flat = || Error::geometry("the vicinity is not curved like a sphere");
         let faces: Vec<(Vec3, Vec3, f64)> = vicinity
             .triangles
             .iter()
@@ -107,11 +106,11 @@ impl Domain {
         if pole == Vec3::zeros() {
             return Err(flat());
         }
-        // Any axis across will do: the one that the pole has least of.
+        // Any axis perpendicular to the pole will do. This one is far from parallel to it.
         let across = Vec3::ith(pole.iamin(), 1.0);
         let mut axes = axes(across - pole * pole.dot(&across), pole);
         if radius < 0.0 {
-            // Seen from the centre, on which side the patch faces then, the sense of turning is the other one.
+            // The patch faces the center and is seen from there, so the orientation is reversed.
             axes.row_mut(1).neg_mut();
         }
         Ok(Self::Sphere {
@@ -121,7 +120,7 @@ impl Domain {
         })
     }
 
-    /// Where a point is in the domain.
+    /// The coordinates of a point in the domain.
     pub(crate) fn place(&self, p: &Vec3) -> Place {
         match self {
             Self::Plane { origin, axes } => {
@@ -155,7 +154,7 @@ impl Domain {
         }
     }
 
-    /// The point at a place in the domain: the inverse of [`Self::place`].
+    /// The point with given coordinates; the inverse of [`Self::place`].
     pub(crate) fn point(&self, place: &Place) -> Vec3 {
         let [u, v] = place.uv;
         match self {
@@ -179,14 +178,15 @@ impl Domain {
     }
 }
 
-/// Rows U, V, S of a right-handed frame with the third axis `s` of length one and `u` across it.
+/// A right-handed frame with the rows U, V and S. `s` is the third axis, a unit vector; `u` is perpendicular to it.
 fn axes(u: Vec3, s: Vec3) -> Matrix3<f64> {
     let u = unit(u);
     let v = s.cross(&u);
     Matrix3::from_rows(&[u.transpose(), v.transpose(), s.transpose()])
 }
 
-/// The area vector of a closed polygon: its length is the largest area of a projection, along it.
+/// The area vector of a closed polygon. Its length is the largest area of a projection, and it is the direction of that
+/// projection.
 fn vector_area(polygon: &[Vec3]) -> Vec3 {
     let start = polygon.first().copied().unwrap_or_default();
     polygon
@@ -202,7 +202,7 @@ mod tests {
     use proptest::prelude::*;
 
     /// A band of a sphere of this radius round its pole, bounded by a circle at `from` radians; triangles face
-    /// outwards, or inwards.
+    /// outward, or inward.
     fn band(radius: f64, from: f64, is_outward: bool) -> (Vicinity, Vec<Vec3>) {
         let (n, rows) = (24, 3);
         let turn = nalgebra::Rotation3::from_euler_angles(0.4, -0.9, 2.0);

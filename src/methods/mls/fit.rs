@@ -1,34 +1,37 @@
-//! Moving least squares: one weighted fit of a polynomial for each place.
+//! Moving least squares: for each place where a value is needed, one weighted fit of a polynomial in two variables.
 //!
-//! Based on: P. Lancaster, K. Salkauskas, "Curve and surface fitting: an introduction", 1986; the polynomials
-//! and weights are those of J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed
-//! from point clouds", 2006, eq. 2, 6 and 7.
+//! Weights decrease with the distance from the place. If the points do not determine a polynomial of the wanted degree,
+//! one of lower degree is fitted.
+//!
+//! Sources: P. Lancaster, K. Salkauskas, "Curve and surface fitting: an introduction", 1986; J. Wang, M. M. Oliveira,
+//! "Filling holes on locally smooth surfaces reconstructed from point clouds", 2006, eq. 2, 6 and 7, for the
+//! polynomials and weights. Cost: O(m) for each place and `m` points.
 
 use crate::math::least_squares::LeastSquares;
 use crate::triangulate::simple_polygon::Point2;
 
-/// A weight below this share of the largest one is left out: it is beyond what the sums hold.
+/// Points with a weight below this share of the largest one are left out. They do not change sums in double precision.
 const SMALLEST_WEIGHT: f64 = 1e-20;
-/// A place nearer to a point than this share of the unit takes the point's values, as the limit of the weights
-/// says: its weight would outdo all others by more than the sums hold.
+/// A place whose distance from a point is below this, in units of the fit, gets the values of the point. That is the
+/// limit of the fit: the weight of the point grows without bound.
 const COINCIDENT: f64 = 1e-8;
 
-/// Values at points of a plane, and how they are fitted.
+/// Values at points of a plane, and the parameters of the fit.
 pub(crate) struct MovingFit<'a> {
-    /// Where the values are.
+    /// The points.
     pub(crate) points: &'a [Point2],
     /// One list of values for each channel.
     pub(crate) channels: &'a [Vec<f64>],
     /// The α of eq. 6.
     pub(crate) alpha: f64,
-    /// The length in which the distances of eq. 6 are counted.
+    /// The unit of the distances in eq. 6.
     pub(crate) unit: f64,
     /// Degree of the polynomials, from 0 to 3.
     pub(crate) degree: usize,
 }
 
 impl MovingFit<'_> {
-    /// Prepares the fit.
+    /// Allocates the buffers of the fit.
     pub(crate) fn evaluator(&self) -> Evaluator<'_> {
         Evaluator {
             fit: self,
@@ -38,16 +41,16 @@ impl MovingFit<'_> {
     }
 }
 
-/// Number of terms of a polynomial of this degree in two variables.
+/// Number of terms of a polynomial of the degree in two variables.
 fn terms(degree: usize) -> usize {
     (degree + 1) * (degree + 2) / 2
 }
 
-/// Numbers of terms of the polynomials that stand in where the points do not determine the one of the highest
-/// degree.
+/// Numbers of terms of the polynomials of degree 2, 1 and 0. They are tried in turn if the points do not determine the
+/// polynomial of the wanted degree.
 const FEWER_TERMS: [usize; 3] = [6, 3, 1];
 
-/// Fits at one place after the other; keeps its memory.
+/// Fits at one place after the other. It keeps its buffers.
 pub(crate) struct Evaluator<'a> {
     fit: &'a MovingFit<'a>,
     squares: Vec<f64>,
@@ -55,7 +58,7 @@ pub(crate) struct Evaluator<'a> {
 }
 
 impl Evaluator<'_> {
-    /// Writes the value of each channel at `p` to `out`. Returns whether there is one.
+    /// Writes the value of each channel at `p` to `out`. Returns false if the points determine no value.
     ///
     /// O(points).
     pub(crate) fn evaluate(&mut self, p: Point2, out: &mut [f64]) -> bool {
@@ -78,12 +81,12 @@ impl Evaluator<'_> {
         self.system.clear();
         let count = terms(fit.degree);
         for (i, (&square, q)) in self.squares.iter().zip(fit.points).enumerate() {
-            // Eq. 6 over its largest value, which changes no solution and does not underflow.
+            // Eq. 6, divided by its largest value. That does not change the solution and avoids underflow.
             let weight = (-fit.alpha * (square - least)).exp() * least / square;
             if weight < SMALLEST_WEIGHT {
                 continue;
             }
-            // Eq. 2 about the place itself: the same polynomials, and the first coefficient is the value.
+            // Eq. 2 in coordinates with the place as origin, so that the first coefficient is the value.
             let (u, v) = ((q[0] - p[0]) / fit.unit, (q[1] - p[1]) / fit.unit);
             let basis = [
                 1.0,

@@ -1,11 +1,14 @@
-//! The height field round a hole, fitted by moving least squares, and the patch that resamples it.
+//! The height field round a hole, fitted by moving least squares, and the patch that is sampled from it.
 //!
-//! Based on: J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed from point
-//! clouds", preprint 2006, Image and Vision Computing 25(1), 2007, section 4. Deviations are listed in
-//! `docs/methods/mls.md`; the sphere as a domain is beyond the paper.
+//! The domain is chosen, the points near the rim are projected to it, and their heights are fitted. The patch has
+//! samples of the fit on a square grid inside the rim.
 //!
-//! O(m k) for m points of the vicinity and k samples, as in the paper.
-//! Not guaranteed: that the patch is free of intersections, or that it is what was there.
+//! Source: J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed from point clouds",
+//! preprint 2006, Image and Vision Computing 25(1), 2007, section 4. `docs/methods/mls.md` lists the differences. The
+//! sphere as a domain is not in the paper.
+//!
+//! Cost: O(m k) for m points of the vicinity and k samples, as in the paper. Not guaranteed: that the patch is free of
+//! intersections.
 
 use super::domain::{Domain, Place};
 use super::fit::MovingFit;
@@ -13,30 +16,32 @@ use super::mask;
 use super::options::{MlsDomain, MlsOptions, MlsUnit};
 use super::vicinity::{Vicinity, rim_loops};
 use crate::error::{Error, ErrorKind, Result};
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal};
+use crate::patch::PatchSurface;
 use crate::patch::chords::joined_chords;
 use crate::patch::mesh::PatchMesh;
-use crate::patch::{HoleShape, PatchSurface, Surroundings};
+use crate::surroundings::Surroundings;
 use crate::triangulate::planar::triangulate_planar_region;
 use crate::triangulate::simple_polygon::{Point2, find_contact};
 
-/// Share of the vicinity's projected area that may be turned over: noise turns single thin triangles, a fold
-/// turns whole parts.
+/// Upper bound on the share of the vicinity's projected area that is turned over. Noise turns single thin triangles
+/// over, a fold turns large parts over.
 const FOLDED_SHARE: f64 = 0.02;
-/// Least ratio of the vicinity's projected area to its area at which the plane is chosen by itself: at 45 degrees
-/// heights change as fast as coordinates, from where on the paper (section 6) sees patches bulge.
+/// Lower bound on the projected area of the vicinity, divided by its area in space, for which the plane is chosen
+/// automatically. It stands for 45 degrees on average. On a steeper surface patches bulge, see section 6 of the paper.
 const LEAST_PROJECTED_SHARE: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// Products of vicinity points and samples that are computed, about half a minute's work.
+/// Upper bound on the number of vicinity points times the number of samples. It takes about half a minute.
 const MOST_PRODUCTS: usize = 1 << 30;
-/// Times that chords are cut that the mesh has as edges already; each time there are fewer.
+/// Upper bound on the rounds of adding samples on chords that are edges of the mesh already.
 const CHORD_ROUNDS: usize = 4;
-/// Over the hole's radius: the length in which distances count, [`MlsUnit::Radius`].
+/// The unit of [`MlsUnit::Radius`], divided by the radius of the hole.
 const RADIUS_SHARE: f64 = 0.25;
 
 /// The height field round one hole.
 pub(crate) struct HeightField<'a> {
-    hole: &'a HoleShape,
+    hole: &'a Hole,
     options: &'a MlsOptions,
     vicinity: Vicinity,
     domain: Domain,
@@ -48,13 +53,14 @@ pub(crate) struct HeightField<'a> {
 }
 
 impl<'a> HeightField<'a> {
-    /// Takes the heights of the vicinity. `surroundings` must reach [`MlsOptions::beta`] sampling steps far.
+    /// Chooses the domain and measures the heights of the vicinity. `surroundings` must contain all points nearer to
+    /// the rim than [`MlsOptions::beta`] sampling steps.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] when the vicinity does not project one-to-one onto the domain, or there is no
-    /// domain; [`ErrorKind::Topology`] when an island touches the rim; [`ErrorKind::Cancelled`].
+    /// [`ErrorKind::Geometry`] when there is no domain, or the vicinity does not project to it one-to-one;
+    /// [`ErrorKind::Topology`] when an island touches the rim; [`ErrorKind::Cancelled`].
     pub(crate) fn new(
-        hole: &'a HoleShape,
+        hole: &'a Hole,
         surroundings: &Surroundings,
         options: &'a MlsOptions,
         job: &Job<'_>,
@@ -66,7 +72,7 @@ impl<'a> HeightField<'a> {
         let rim: Vec<Vec3> = hole
             .polygon
             .iter()
-            .map(|&v| hole.points[v as usize])
+            .map(|&v| surroundings.point(v))
             .collect();
         let on = |domain: Domain| {
             let projection = Projection::new(&domain, &vicinity, &loops, job)?;
@@ -97,16 +103,16 @@ impl<'a> HeightField<'a> {
         })
     }
 
-    /// The vertices of the vicinity, as [`HoleShape::point`] counts them.
+    /// The vertices of the vicinity, with the numbers of [`HoleShape::point`].
     pub(crate) fn vertices(&self) -> &[u32] {
         &self.vicinity.vertices
     }
 
-    /// Extends values at the [`Self::vertices`], one list for each channel, to other points: the heights are
-    /// replaced by them (section 4.4).
+    /// Extends attribute values to other points: fits them in place of the heights (section 4.4). `channels` has one
+    /// list for each channel, with a value for each of the [`Self::vertices`].
     ///
     /// # Errors
-    /// [`ErrorKind::Solver`] when there is no value somewhere; [`ErrorKind::Limit`]; [`ErrorKind::Cancelled`].
+    /// [`ErrorKind::Solver`] when the fit has no value at a point; [`ErrorKind::Limit`]; [`ErrorKind::Cancelled`].
     pub(crate) fn extend(
         &self,
         channels: &[Vec<f64>],
@@ -120,8 +126,8 @@ impl<'a> HeightField<'a> {
     /// The patch: the rim, the samples, and the triangles between them.
     ///
     /// # Errors
-    /// [`ErrorKind::Limit`] for more than `limit` samples or too many of them for the size of the vicinity;
-    /// those of the fit and of the triangulation; [`ErrorKind::Cancelled`].
+    /// [`ErrorKind::Limit`] for more than `limit` samples, or if samples times vicinity points are too many; those of
+    /// the fit and of the triangulation; [`ErrorKind::Cancelled`].
     pub(crate) fn patch(&self, limit: usize, job: &Job<'_>) -> Result<PatchSurface> {
         let hole = self.hole;
         let at = |v: &u32| self.uv[*v as usize];
@@ -132,15 +138,15 @@ impl<'a> HeightField<'a> {
             .collect();
         let step = self.vicinity.step;
         let mut samples = mask::resampling_positions(&loops, step, limit, job)?;
-        // The triangulation counts the vertices of the loops and then the samples.
+        // The triangulation numbers the vertices of the loops first and then the samples.
         let order: Vec<u32> = self.loops.iter().flatten().copied().collect();
         let mut triangles = triangulate_planar_region(&loops, &samples, job)?;
-        let shift = hole.points.len() - order.len();
+        let shift = hole.rim().len() - order.len();
         let global = |v: u32| order.get(v as usize).copied().unwrap_or(v + shift as u32);
         for round in 0.. {
             let triangles_in_space = triangles.iter().map(|t| t.map(global)).collect();
-            let count = hole.points.len() + samples.len();
-            let mesh = PatchMesh::new(triangles_in_space, count, hole.points.len())?;
+            let count = hole.rim().len() + samples.len();
+            let mesh = PatchMesh::new(triangles_in_space, count, hole.rim().len())?;
             let mut chords = joined_chords(&mesh, hole);
             if chords.is_empty() || round == CHORD_ROUNDS {
                 break;
@@ -153,13 +159,13 @@ impl<'a> HeightField<'a> {
             triangles = triangulate_planar_region(&loops, &samples, job)?;
         }
         let heights = self.fitted(std::slice::from_ref(&self.heights), &samples, job)?;
-        let mut points = hole.points.clone();
+        let mut points = hole.rim().to_vec();
         points.extend(samples.iter().zip(&heights[0]).map(|(&uv, &height)| {
             let place = Place { uv, height };
             self.domain.point(&place)
         }));
         Ok(PatchSurface {
-            rim_count: hole.points.len(),
+            rim_count: hole.rim().len(),
             points,
             triangles: triangles.into_iter().map(|t| t.map(global)).collect(),
         })
@@ -178,7 +184,7 @@ impl<'a> HeightField<'a> {
                 "{} samples of a fit to {count} points are too many",
                 places.len()
             );
-            return Err(Error::new(ErrorKind::Limit, message));
+            return Err(Error::limit(message));
         }
         let fit = MovingFit {
             points: &self.uv,
@@ -207,7 +213,7 @@ impl<'a> HeightField<'a> {
         match self.options.unit {
             MlsUnit::Step => self.vicinity.step,
             MlsUnit::Radius => {
-                let rim = &self.uv[..self.hole.points.len()];
+                let rim = &self.uv[..self.hole.rim().len()];
                 let count = rim.len() as f64;
                 let mean = |k: usize| rim.iter().map(|p| p[k]).sum::<f64>() / count;
                 let (u, v) = (mean(0), mean(1));
@@ -218,19 +224,19 @@ impl<'a> HeightField<'a> {
     }
 }
 
-/// The vicinity in a domain.
+/// The vicinity, projected to a domain.
 struct Projection {
-    /// Where its points are.
+    /// The coordinates of its points.
     places: Vec<Place>,
-    /// Projected area of its triangles over their area.
+    /// Projected area of its triangles, divided by their area in space.
     area_share: f64,
 }
 
 impl Projection {
-    /// Takes the places of the vicinity's points.
+    /// Projects the vicinity.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] when they are not in one-to-one relation with the points; [`ErrorKind::Cancelled`].
+    /// [`ErrorKind::Geometry`] when the projection is not one-to-one; [`ErrorKind::Cancelled`].
     fn new(
         domain: &Domain,
         vicinity: &Vicinity,
@@ -255,17 +261,17 @@ impl Projection {
         if turned > FOLDED_SHARE * all {
             let share = (100.0 * turned / all).round();
             let message = format!("{share} % of the vicinity are folded over in {onto}");
-            return Err(Error::new(ErrorKind::Geometry, message));
+            return Err(Error::geometry(message));
         }
         for of_loop in loops {
             let polygon: Vec<Point2> = of_loop.iter().map(|&v| places[v as usize].uv).collect();
             if polygon.iter().flatten().any(|x| !x.is_finite()) {
                 let message = format!("the rim has no place in {onto}");
-                return Err(Error::new(ErrorKind::Geometry, message));
+                return Err(Error::geometry(message));
             }
             if let Some((i, j)) = find_contact(&polygon, job)? {
                 let message = format!("edges {i} and {j} of the rim meet in {onto}");
-                return Err(Error::new(ErrorKind::Geometry, message));
+                return Err(Error::geometry(message));
             }
         }
         Ok(Self {

@@ -1,20 +1,24 @@
-//! Where a hole is sampled: the points of a square grid that lie in the mask's opening.
+//! The positions of samples inside a hole: the points of a square grid in the domain that lie inside the rim.
+//!
+//! Each grid line is cut with the rim; the points between two crossings are inside. Points too near to the rim are left
+//! out. Source: J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed from point clouds",
+//! 2007, section 4.3, which calls the rim's surroundings the mask.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::triangulate::simple_polygon::Point2;
 
-/// Least distance of a sample from the mask, in steps.
+/// Lower bound on the distance of a sample from the rim, in grid widths.
 const CLEARANCE: f64 = 0.5;
-/// Largest number of grid lines that a hole may span: more would not be counted exactly by what follows.
+/// Upper bound on the coordinates of the rim, in grid widths. Larger ones would not fit the arithmetic below.
 const MOST_LINES: f64 = 1e9;
 
-/// The points of the grid of width `step` about the origin that lie inside the `loops` (by the parity of
-/// crossings, so that an inner loop bounds an island) and not nearer to them than half a step, in scan order:
-/// by `v`, then by `u`.
+/// The points of a grid of width `step` through the origin that lie inside the `loops` and at least half a step away
+/// from them, sorted by `v`, then by `u`. Inside is decided by the parity of crossings, so an inner loop bounds an
+/// island.
 ///
 /// # Errors
-/// [`ErrorKind::Limit`] for more than `limit` samples; [`ErrorKind::Cancelled`].
+/// [`crate::ErrorKind::Limit`] for more than `limit` samples; [`crate::ErrorKind::Cancelled`].
 ///
 /// # Complexity
 /// O(k + l log l) for k samples and l grid cells along the loops.
@@ -26,7 +30,7 @@ pub(crate) fn resampling_positions(
 ) -> Result<Vec<Point2>> {
     let too_many = || {
         let message = format!("the hole needs more than {limit} new vertices");
-        Error::new(ErrorKind::Limit, message)
+        Error::limit(message)
     };
     let mut crossings: Vec<(i64, f64)> = Vec::new();
     let mut near: Vec<(i64, i64)> = Vec::new();
@@ -41,7 +45,7 @@ pub(crate) fn resampling_positions(
             add_crossings(edge, &mut crossings);
             add_near(edge, &mut near);
             if near.len() / 16 > limit.saturating_add(of_loop.len()) {
-                // Sixteen cells at most lie along a piece of a loop that is as long as the grid is wide.
+                // A piece of a loop as long as the grid width has at most sixteen grid points near it.
                 return Err(too_many());
             }
         }
@@ -70,7 +74,8 @@ pub(crate) fn resampling_positions(
     Ok(samples)
 }
 
-/// Where the edge crosses the lines of the grid: a line belongs to what lies above it.
+/// Adds the crossings of an edge with the horizontal lines of the grid. An end of the edge on a line counts as above
+/// it.
 fn add_crossings([a, b]: [Point2; 2], crossings: &mut Vec<(i64, f64)>) {
     let (low, high) = if a[1] < b[1] { (a, b) } else { (b, a) };
     for row in low[1].ceil() as i64..high[1].ceil() as i64 {
@@ -79,7 +84,7 @@ fn add_crossings([a, b]: [Point2; 2], crossings: &mut Vec<(i64, f64)>) {
     }
 }
 
-/// The points of the grid nearer to the edge than the clearance.
+/// Adds the points of the grid that are nearer to the edge than the clearance.
 fn add_near([a, b]: [Point2; 2], near: &mut Vec<(i64, i64)>) {
     let range = |k: usize| {
         let (low, high) = (a[k].min(b[k]), a[k].max(b[k]));
@@ -88,7 +93,7 @@ fn add_near([a, b]: [Point2; 2], near: &mut Vec<(i64, i64)>) {
     let d = [b[0] - a[0], b[1] - a[1]];
     let length_sq = d[0] * d[0] + d[1] * d[1];
     for row in range(1) {
-        // The part of the edge that is near enough to this line.
+        // The part of the edge that is near this line.
         let at = |bound: f64| ((bound - a[1]) / d[1]).clamp(0.0, 1.0);
         let (s, t) = if d[1] == 0.0 {
             (0.0, 1.0)
@@ -115,6 +120,7 @@ fn add_near([a, b]: [Point2; 2], near: &mut Vec<(i64, i64)>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::ErrorKind;
     use proptest::prelude::*;
 
     fn distance(p: Point2, [a, b]: [Point2; 2]) -> f64 {

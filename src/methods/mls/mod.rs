@@ -1,8 +1,12 @@
-//! Fills a hole by moving least squares over a reference plane or a sphere.
+//! The method `mls`: fits a height field to the vertices near the hole by moving least squares, and resamples it.
 //!
-//! Based on: J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed from point
-//! clouds", preprint 2006, Image and Vision Computing 25(1), 2007. Where they mesh the whole model anew, the
-//! samples are triangulated with the rim in the domain, and edges are flipped where the surface asks for it.
+//! Heights are measured over a reference plane or a fitted sphere, the domain. New vertices lie on a square grid in
+//! the domain. They are triangulated there together with the rim, and then edges are flipped, because a triangulation
+//! that is Delaunay in the domain need not be so in space.
+//!
+//! Source: J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed from point clouds",
+//! preprint 2006, Image and Vision Computing 25(1), 2007. The paper reconstructs the whole model from points; here only
+//! the hole is triangulated. Limits: see `height_field`.
 
 mod domain;
 mod fit;
@@ -17,8 +21,9 @@ use super::task::Task;
 use crate::error::Result;
 use crate::math::Vec3;
 use crate::options::FillOptions;
-use crate::patch::{PatchSurface, Surroundings};
+use crate::patch::PatchSurface;
 use crate::refine::{RefineOptions, refine};
+use crate::surroundings::Surroundings;
 use height_field::HeightField;
 
 /// The method.
@@ -31,7 +36,7 @@ pub(super) const MLS: MethodSpec = MethodSpec {
     ..MethodSpec::USUAL
 };
 
-/// Target edge length, in mean rim edges, at which no edge of a patch is split.
+/// Target edge length with which refinement splits no edge, in mean rim edge lengths.
 const UNSPLIT: f64 = 1e9;
 
 fn reach(options: &FillOptions) -> HoleReach {
@@ -47,7 +52,7 @@ fn make(task: &Task<'_>) -> Result<PatchSurface> {
     let (hole, job) = (task.hole, task.job);
     let field = HeightField::new(hole, &hole.surroundings, &task.options.methods.mls, job)?;
     let mut surface = field.patch(task.options.refinement.max_vertices, job)?;
-    // Delaunay in the domain is not Delaunay on a steep surface.
+    // Flips only: a triangulation that is Delaunay in the domain is not so on a steep surface.
     let flips_only = RefineOptions {
         pass_relaxations: 0,
         final_relaxations: 0,
@@ -61,7 +66,7 @@ fn make(task: &Task<'_>) -> Result<PatchSurface> {
     Ok(surface)
 }
 
-/// The values of the same fit, for each channel.
+/// Extends attribute values with the fit that gives the heights, for each channel.
 ///
 /// # Errors
 /// Those of [`HeightField::new`] and [`HeightField::extend`].

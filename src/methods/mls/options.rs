@@ -1,22 +1,22 @@
-//! Options of moving least squares.
+//! The options of the method `mls`.
 
 use crate::options::entry::{choice, options};
 
-/// The surface over which [`Mls`](crate::Method::Mls) takes heights.
+/// The surface over which [`Mls`](crate::Method::Mls) measures heights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MlsDomain {
-    /// The plane where the vicinity projects onto it one-to-one and at less than 45 degrees on average, else the
-    /// sphere if there is one.
+    /// The plane, if the vicinity projects to it one-to-one and at less than 45 degrees on average. Otherwise the
+    /// sphere, if there is one.
     #[default]
     Auto,
     /// The reference plane of the paper.
     Plane,
-    /// The sphere that fits the vicinity, or the plane where the vicinity is as good as flat.
+    /// The sphere fitted to the vicinity; the plane, if the vicinity is nearly flat.
     Curved,
 }
 
-/// The length in which the distances of the weights are counted.
+/// The unit of the distances in the weights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MlsUnit {

@@ -1,17 +1,17 @@
-//! Patches over surfaces that are known.
+//! Tests: fills holes in analytic surfaces and measures the distance of the patch from them.
 
 use super::*;
 use crate::job::Job;
 
 /// The hole in a grid over `[-1, 1]²` that is lifted by `f`, inside the circle of this radius.
-fn hole_in_grid(f: impl Fn(f64, f64) -> Vec3, n: i32, radius: f64) -> HoleShape {
+fn hole_in_grid(f: impl Fn(f64, f64) -> Vec3, n: i32, radius: f64) -> Hole {
     let h = 1.0 / f64::from(n);
     let at = |i: i32, j: i32| f(f64::from(i) * h, f64::from(j) * h);
     let is_known = |i: i32, j: i32| {
         let middle = |k: i32| (f64::from(k) + 0.5) * h;
         i >= -n && i < n && j >= -n && j < n && middle(i).hypot(middle(j)) > radius
     };
-    // The cells' edges towards the hole, with the hole on the left.
+    // The cells' edges toward the hole, with the hole on the left.
     let mut next = std::collections::BTreeMap::new();
     for i in -n..n {
         for j in -n..n {
@@ -37,31 +37,35 @@ fn hole_in_grid(f: impl Fn(f64, f64) -> Vec3, n: i32, radius: f64) -> HoleShape 
     }
     let mut numbers: std::collections::BTreeMap<(i32, i32), u32> =
         rim.iter().copied().zip(0..).collect();
-    let mut hole = HoleShape {
-        points: rim.iter().map(|&(i, j)| at(i, j)).collect(),
-        polygon: (0..rim.len() as u32).collect(),
-        ..HoleShape::default()
-    };
+    let mut points: Vec<Vec3> = rim.iter().map(|&(i, j)| at(i, j)).collect();
+    let mut triangles = Vec::new();
     for i in -n..n {
         for j in -n..n {
             if is_known(i, j) {
                 let mut number = |i: i32, j: i32| {
                     *numbers.entry((i, j)).or_insert_with(|| {
-                        hole.surroundings.points.push(at(i, j));
-                        (hole.points.len() + hole.surroundings.points.len() - 1) as u32
+                        points.push(at(i, j));
+                        points.len() as u32 - 1
                     })
                 };
                 let [a, b, c, d] =
                     [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(k, l)| number(i + k, j + l));
-                hole.surroundings.triangles.push([a, b, c]);
-                hole.surroundings.triangles.push([a, c, d]);
+                triangles.push([a, b, c]);
+                triangles.push([a, c, d]);
             }
         }
     }
-    hole
+    let levels = (0..points.len()).map(|i| u32::from(i >= rim.len()));
+    let levels = levels.collect();
+    Hole {
+        polygon: (0..rim.len() as u32).collect(),
+        is_bridge: vec![false; rim.len()],
+        surroundings: Surroundings::new(rim.len(), points, levels, triangles),
+        ..Hole::default()
+    }
 }
 
-fn filled(hole: &HoleShape, options: &MlsOptions) -> Result<PatchSurface> {
+fn filled(hole: &Hole, options: &MlsOptions) -> Result<PatchSurface> {
     HeightField::new(hole, &hole.surroundings, options, &Job::unlimited())?
         .patch(100_000, &Job::unlimited())
 }
@@ -71,8 +75,9 @@ fn a_quadratic_height_field_comes_back_wherever_it_lies() {
     let f = |u: f64, v: f64| Vec3::new(u, v, 0.2 * u * u - 0.3 * u * v + 0.1 * v);
     let turn = nalgebra::Rotation3::from_euler_angles(0.5, -1.2, 2.0);
     let mut hole = hole_in_grid(f, 12, 0.5);
-    let points = hole.points.iter_mut().chain(&mut hole.surroundings.points);
-    points.for_each(|p| *p = turn * *p * 3.0 + Vec3::new(5.0, 6.0, -7.0));
+    let points = hole.surroundings.points().iter();
+    let moved = points.map(|p| turn * p * 3.0 + Vec3::new(5.0, 6.0, -7.0));
+    hole.surroundings = hole.surroundings.moved(moved.collect());
     for unit in [MlsUnit::Step, MlsUnit::Radius] {
         // Heights over the tilted plane of least squares are only nearly quadratic.
         let options = MlsOptions {
@@ -92,7 +97,7 @@ fn a_quadratic_height_field_comes_back_wherever_it_lies() {
 #[test]
 fn the_samples_have_the_spacing_of_equation_nine() {
     let hole = hole_in_grid(|u, v| Vec3::new(u, v, 0.0), 20, 0.6);
-    let step = hole.sampling_step();
+    let step = hole.surroundings.sampling_step();
     let surface = filled(&hole, &MlsOptions::default()).unwrap();
     let expected = std::f64::consts::PI * 0.36 / (step * step);
     let samples = (surface.points.len() - surface.rim_count) as f64;
@@ -137,7 +142,7 @@ fn other_values_are_extended_like_the_heights() {
     let known = field
         .vertices()
         .iter()
-        .map(|&v| value(&hole.point(v)))
+        .map(|&v| value(&hole.surroundings.point(v)))
         .collect();
     let surface = field.patch(100_000, &Job::unlimited()).unwrap();
     let new_points = &surface.points[surface.rim_count..];

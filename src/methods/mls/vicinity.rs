@@ -1,14 +1,17 @@
-//! The known points near a rim, through which the height field is fitted.
+//! The vicinity of a hole: the known points near the rim, to which the height field is fitted.
+//!
+//! Source: J. Wang, M. M. Oliveira, "Filling holes on locally smooth surfaces reconstructed from point clouds", 2007.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::Vec3;
 use crate::math::segments::Segments;
-use crate::patch::{HoleShape, Surroundings};
+use crate::surroundings::Surroundings;
 
 /// The points nearer to the rim than a number of sampling steps, and the triangles between them.
 pub(crate) struct Vicinity {
-    /// The vertices: those of the rim first, then of the surroundings, as [`HoleShape::point`] counts them.
+    /// The vertices, first those of the rim, then others, with the numbers of [`HoleShape::point`].
     pub(crate) vertices: Vec<u32>,
     /// Their positions.
     pub(crate) points: Vec<Vec3>,
@@ -19,46 +22,44 @@ pub(crate) struct Vicinity {
 }
 
 impl Vicinity {
-    /// The points of `surroundings` nearer to the rim than `beta` sampling steps. The surroundings must reach
-    /// so far.
+    /// The points of `surroundings` nearer to the rim than `beta` sampling steps. `surroundings` must contain them all.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] when the triangles at the rim have no area; [`ErrorKind::Cancelled`].
+    /// [`crate::ErrorKind::Geometry`] when the triangles at the rim have no area; [`crate::ErrorKind::Cancelled`].
     pub(crate) fn new(
-        hole: &HoleShape,
+        hole: &Hole,
         surroundings: &Surroundings,
         beta: f64,
         job: &Job<'_>,
     ) -> Result<Self> {
-        let step = hole.sampling_step();
+        let step = hole.surroundings.sampling_step();
         if !(step.is_finite() && step > 0.0) {
             let message = "the triangles at the rim have no area to take a sampling step from";
-            return Err(Error::new(ErrorKind::Geometry, message));
+            return Err(Error::geometry(message));
         }
-        let rim_count = hole.points.len();
         let polygon = &hole.polygon;
         let edges = (0..polygon.len())
             .map(|i| [polygon[i], polygon[(i + 1) % polygon.len()]])
-            .map(|edge| edge.map(|v| hole.points[v as usize]));
+            .map(|edge| edge.map(|v| surroundings.point(v)));
         let rim = Segments::new(edges.collect(), job)?;
         let limit = (beta * step) * (beta * step);
         let mut vicinity = Self {
-            vertices: (0..rim_count as u32).collect(),
-            points: hole.points.clone(),
+            vertices: (0..hole.rim().len() as u32).collect(),
+            points: hole.rim().to_vec(),
             triangles: Vec::new(),
             step,
         };
         let mut place: Vec<Option<u32>> = vicinity.vertices.iter().copied().map(Some).collect();
-        for (i, p) in surroundings.points.iter().enumerate() {
+        for (v, p) in (vicinity.points.len() as u32..).zip(surroundings.outer()) {
             job.tick(30)?;
             let is_near = rim.distance_sq(p) < limit;
             place.push(is_near.then_some(vicinity.points.len() as u32));
             if is_near {
-                vicinity.vertices.push((rim_count + i) as u32);
+                vicinity.vertices.push(v);
                 vicinity.points.push(*p);
             }
         }
-        for t in &surroundings.triangles {
+        for t in surroundings.triangles() {
             if let [Some(a), Some(b), Some(c)] = t.map(|v| place[v as usize]) {
                 vicinity.triangles.push([a, b, c]);
             }
@@ -71,19 +72,15 @@ impl Vicinity {
 /// as rim vertices. Bridges between them are left out.
 ///
 /// # Errors
-/// [`ErrorKind::Topology`] when two of them share a vertex.
-pub(crate) fn rim_loops(hole: &HoleShape) -> Result<Vec<Vec<u32>>> {
+/// [`crate::ErrorKind::Topology`] when two of them share a vertex.
+pub(crate) fn rim_loops(hole: &Hole) -> Result<Vec<Vec<u32>>> {
     let m = hole.polygon.len();
-    let edge = |i: usize| (hole.polygon[i], hole.polygon[(i + 1) % m]);
-    let mut edges: Vec<(u32, u32)> = (0..m).map(edge).collect();
-    edges.sort_unstable();
-    // A bridge is passed both ways.
-    let is_bridge = |&(a, b): &(u32, u32)| edges.binary_search(&(b, a)).is_ok();
-    let mut next: Vec<Option<u32>> = vec![None; hole.points.len()];
-    for (a, b) in edges.iter().copied().filter(|e| !is_bridge(e)) {
+    let mut next: Vec<Option<u32>> = vec![None; hole.rim().len()];
+    for i in (0..m).filter(|&i| !hole.is_bridge[i]) {
+        let (a, b) = (hole.polygon[i], hole.polygon[(i + 1) % m]);
         if next[a as usize].replace(b).is_some() {
             let message = "an island touches the rim in a vertex";
-            return Err(Error::new(ErrorKind::Topology, message));
+            return Err(Error::topology(message));
         }
     }
     let mut loops = Vec::new();

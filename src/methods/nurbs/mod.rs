@@ -1,13 +1,17 @@
-//! NURBS: spline curves through layers of known points on both sides of the hole, and a spline surface through them.
+//! The method `nurbs`: spline curves across the hole, and a spline surface through them.
 //!
-//! Based on: A. Kumar, Y. Ito, T.-Y. Yu, D. H. Ross, A. M. Shih, "A novel hole patching algorithm for discrete
+//! In each section plane, a natural cubic spline passes through samples of the known surface on both sides of the hole.
+//! Across the sections, every second curve is replaced by a cubic interpolation of its neighbors, as a spline surface
+//! would have it. All other steps are those of [`sections`](super::sections).
+//!
+//! Source: A. Kumar, Y. Ito, T.-Y. Yu, D. H. Ross, A. M. Shih, "A novel hole patching algorithm for discrete
 //! geometry using non-uniform rational B-spline", International Journal for Numerical Methods in Engineering 87(13),
 //! 2011, as W.-C. Xie and X.-F. Zou describe it (Computer-Aided Design 45, 2013, section 2). Splines: C. de Boor, "A
-//! practical guide to splines", Springer, 1978. `docs/methods/nurbs.md` says how what the description leaves open is
+//! practical guide to splines", Springer, 1978. `docs/methods/nurbs.md` says how open points of the description are
 //! decided.
 //!
-//! `O(1)` per predicted point. Not guaranteed: tangency at the rim; a spline of least bending energy is flatter than
-//! a strongly curved surface.
+//! Cost: `O(1)` for each predicted point. Not guaranteed: a common tangent plane at the rim. On a strongly curved
+//! surface the spline is too flat.
 
 pub(crate) mod options;
 
@@ -27,15 +31,12 @@ pub(super) const NURBS: MethodSpec = MethodSpec {
     ..MethodSpec::USUAL
 };
 
-/// Rings of known triangles that are read: those that three layers outwards pass.
+/// Rings of known triangles that are read. The default of three layers outward passes them.
 const RING_COUNT: u32 = 5;
 
-/// Weights of the cubic through four equidistant curves half way between the second and the third: the spline
-/// surface across the sections.
+/// Weights of four equidistant curves in the cubic through them, half way between the second and the third.
 const ACROSS: [f64; 4] = [-1.0 / 16.0, 9.0 / 16.0, 9.0 / 16.0, -1.0 / 16.0];
 
-/// Sections, triangulation and optimization are those of [`sections`](super::sections).
-///
 /// # Errors
 /// Those of [`patch_along`].
 fn make(task: &Task<'_>) -> Result<PatchSurface> {
@@ -68,7 +69,8 @@ fn make(task: &Task<'_>) -> Result<PatchSurface> {
     patch_along(task, task.options.methods.sections(), &surface)
 }
 
-/// A point of the spline surface: the curves of even number are interpolated, those between them give way.
+/// The point at the share `share` of section `r` on the spline surface. Curves of even number stay; those of odd number
+/// are interpolated from the four nearest even ones, if there are that many.
 fn across(curves: &[SplineCurve], r: usize, share: f64) -> Vec3 {
     let is_between = r % 2 == 1 && r >= 3 && r + 3 < curves.len();
     if !is_between {
@@ -81,7 +83,7 @@ fn across(curves: &[SplineCurve], r: usize, share: f64) -> Vec3 {
         .sum()
 }
 
-/// The span over the hole of the natural cubic spline through known points, parametrized by the length of chords.
+/// The span of a natural cubic spline that crosses the hole. The spline is parametrized by chord lengths.
 struct SplineCurve {
     ends: [Vec3; 2],
     /// Second derivatives at the ends.
@@ -91,7 +93,7 @@ struct SplineCurve {
 }
 
 impl SplineCurve {
-    /// The span after the point number `inner`; there are at least two points.
+    /// The span between the points `inner` and `inner + 1` of the spline through all points.
     fn through(points: &[Vec3], inner: usize) -> Self {
         let steps: Vec<f64> = points.windows(2).map(|w| (w[1] - w[0]).norm()).collect();
         let bends = second_derivatives(points, &steps);
@@ -109,7 +111,7 @@ impl SplineCurve {
     }
 }
 
-/// Second derivatives of the natural cubic spline at its knots, from the tridiagonal system, eliminated in order.
+/// Second derivatives of the natural cubic spline at its knots: the solution of a tridiagonal system.
 fn second_derivatives(points: &[Vec3], steps: &[f64]) -> Vec<Vec3> {
     let n = points.len();
     let mut bends = vec![Vec3::zeros(); n];

@@ -1,4 +1,4 @@
-//! Options of NURBS.
+//! The options of the method `nurbs`.
 
 use crate::options::entry::options;
 

@@ -1,15 +1,17 @@
-//! Step 5, first half: the two arcs of a section, and what lies between them.
+//! Step 5, first half: the two circular arcs of a section, and the range of heights between them for each point.
+//!
+//! One arc is tangent to the surface at the first end of the section, the other at the second end.
 //!
 //! Source: W.-C. Xie, X.-F. Zou, "A triangulation-based hole patching method using differential evolution",
 //! Computer-Aided Design 45, 2013, section 4.5, equations 12, 13, 15 and 16. `O(m)`.
 
 use std::f64::consts::FRAC_PI_2;
 
-/// Below this angle, in radians, an arc is a parabola to double precision.
+/// Below this angle, in radians, an arc is computed as a parabola. Both agree to double precision.
 const FLAT: f64 = 1e-5;
 
-/// A circular arc from the origin to `(length, 0)` whose tangent at both ends makes the angle `angle` with the
-/// x axis, upwards at the start.
+/// A circular arc from the origin to `(length, 0)`. Its tangents at both ends make the angle `angle` with the x axis; a
+/// positive angle is upward at the start.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Arc {
     pub(crate) length: f64,
@@ -38,8 +40,8 @@ impl Arc {
         [x, self.height(turned)]
     }
 
-    /// The height where the arc meets the line `x = const`, for arcs up to half a circle; those beyond meet it
-    /// twice or not at all.
+    /// The height of the arc above `x`; `None` for an arc of more than half a circle, which may have two heights there
+    /// or none.
     fn above(&self, x: f64) -> Option<f64> {
         if self.angle.abs() > FRAC_PI_2 {
             return None;
@@ -61,21 +63,21 @@ impl Arc {
     }
 }
 
-/// The points of a section in its plane before their heights are chosen: the end points are the origin and
-/// `(length, 0)`.
+/// The points of a section in its plane, with bounds on their heights. The ends are the origin and `(length, 0)`.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Profile {
     pub(crate) length: f64,
     pub(crate) x: Vec<f64>,
-    /// Smallest and largest height of each point.
+    /// Lower bound on the height of each point.
     pub(crate) lower: Vec<f64>,
+    /// Upper bound on the height of each point.
     pub(crate) upper: Vec<f64>,
-    /// The heights of equation 16.
+    /// The start heights: the two arcs, blended by equation 16.
     pub(crate) start: Vec<f64>,
 }
 
-/// `count` points between the arc `first`, which is tangent to the surface at the first end, and `second`, which
-/// is at the other.
+/// The profile of a section with `count` points. The arc `first` is tangent to the surface at the first end, `second`
+/// at the second end.
 pub(crate) fn profile(first: &Arc, second: &Arc, count: usize) -> Profile {
     let mut profile = Profile {
         length: first.length,

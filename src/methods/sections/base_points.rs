@@ -1,12 +1,12 @@
-//! Step 2: base points at equal distances along the rim.
+//! Step 2: places base points at equal distances along the rim. Sections start and end there.
 //!
 //! Source: W.-C. Xie, X.-F. Zou, "A triangulation-based hole patching method using differential evolution",
-//! Computer-Aided Design 45, 2013, section 4.2. `O(m)`.
+//! Computer-Aided Design 45, 2013, section 4.2. `O(m + n)` for `m` rim vertices and `n` base points.
 
 use super::rim::Rim;
 use crate::math::{Vec3, unit};
 
-/// A point of the rim from which a section starts or at which it ends.
+/// A point of the rim at which a section starts or ends.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BasePoint {
     pub(super) position: Vec3,
@@ -18,11 +18,11 @@ pub(crate) struct BasePoint {
     pub(super) edge: usize,
 }
 
-/// `n = ⌊BudLen / (spacing · EdgeLen)⌋` base points, one less if that is odd, so that each can have a partner.
-/// The first one is the first vertex of the rim.
+/// `n = ⌊BudLen / (spacing · EdgeLen)⌋` base points, where `BudLen` is the perimeter; one less if `n` is odd, so that
+/// each point can have a partner. The first one is the first vertex of the rim.
 pub(super) fn base_points(rim: &Rim, spacing: f64) -> Vec<BasePoint> {
     let wanted = (rim.perimeter() / (spacing * rim.edge_length)).floor();
-    // The rim has at least three edges and lengths that are finite; a count is what is left.
+    // The rim has at least three edges, and its lengths are finite.
     let count = (wanted as usize) & !1;
     let mut edge = 0;
     (0..count)
@@ -52,10 +52,10 @@ pub(super) fn base_points(rim: &Rim, spacing: f64) -> Vec<BasePoint> {
         .collect()
 }
 
-/// Base points to each side over which the direction of the rim is taken: rims are jagged by half an edge.
+/// Number of base points to each side over which the direction of the rim is measured. It smooths a jagged rim.
 const JAGS: usize = 2;
 
-/// The direction in which the rim runs at base point `k`.
+/// The unit direction of the rim at base point `k`.
 pub(super) fn rim_direction(base: &[BasePoint], k: usize) -> Vec3 {
     let n = base.len();
     let reach = JAGS.min(n / 4).max(1);

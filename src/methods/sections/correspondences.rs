@@ -1,4 +1,4 @@
-//! Step 3: which base points face each other.
+//! Step 3: pairs the base points that face each other across the hole.
 //!
 //! Source: W.-C. Xie, X.-F. Zou, "A triangulation-based hole patching method using differential evolution",
 //! Computer-Aided Design 45, 2013, section 4.3, equations 9 and 10. `O(n²)`.
@@ -8,18 +8,18 @@ use crate::error::Result;
 use crate::job::Job;
 use crate::math::{Vec3, unit};
 
-/// A pair of base points that face each other, as indices of the rotated sequence: `first < second`.
+/// A pair of base points that face each other, as indices in the rotated sequence: `first < second`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Correspondence {
     pub(crate) first: usize,
     pub(crate) second: usize,
 }
 
-/// The start of the sequence for which the distances between the points `i` and `n - 1 - i` have the smallest sum,
-/// equation 10.
+/// The rotation of the sequence for which the sum of the distances between the points `i` and `n - 1 - i` is smallest,
+/// equation 10. The result is the index of the first point.
 ///
 /// # Errors
-/// `Cancelled` when the job is stopped.
+/// `Cancelled` when the job is cancelled.
 pub(super) fn best_start(base: &[BasePoint], job: &Job<'_>) -> Result<usize> {
     let n = base.len();
     let sum = |start: usize| -> f64 {
@@ -42,16 +42,16 @@ pub(super) fn best_start(base: &[BasePoint], job: &Job<'_>) -> Result<usize> {
     Ok(best.0)
 }
 
-/// The start of the sequence in which the base points `i` and `j` face each other, equation 9; if no start does,
-/// because their sum is even, `j + 1` takes the place of `j`.
+/// The rotation of the sequence in which the base points `i` and `j` are partners, equation 9. If `i + j` is even,
+/// there is none; then `i` and `j + 1` become partners.
 pub(super) fn start_of_cut(n: usize, i: usize, j: usize) -> usize {
     // The points at `start + k` and `start - 1 - k` are partners: their sum is 2 start - 1.
     let sum = i + j;
     (sum + 1 + (1 - sum % 2)) / 2 % n
 }
 
-/// The partners of the sequence from its ends inwards. A point at which the line to its partner makes an angle
-/// with the rim whose sine is below `smallest_sine` is passed over, on its side only.
+/// The pairs of partners, from the ends of the sequence inward. A point is skipped, on its side only, if the sine of
+/// the angle between the rim and the line to its partner is below `smallest_sine`.
 pub(super) fn pairs(base: &[BasePoint], smallest_sine: f64) -> Vec<Correspondence> {
     let n = base.len();
     let mut pairs = Vec::new();

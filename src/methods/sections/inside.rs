@@ -1,15 +1,16 @@
-//! Which points of the plane lie inside a polygon.
+//! Tests whether points of the plane lie inside a polygon, by counting the edges that a ray crosses.
 //!
-//! The edges are sorted into as many levels as there are edges, so that a point looks at those of its own level only:
-//! `O(m + points)` when the edges are short against the polygon.
+//! The height of the polygon is divided into as many levels as it has edges. Each level lists the edges that reach it,
+//! so that a point is compared only with the edges of its level. `O(m + points)` for `m` edges that are short against
+//! the polygon.
 
-/// A polygon that is ready to be asked.
+/// A polygon with its edges sorted into levels.
 pub(super) struct Inside<'a> {
     polygon: &'a [[f64; 2]],
     low: f64,
     /// Height of a level.
     step: f64,
-    /// Edges, by their first vertex, that reach each level.
+    /// The edges that reach each level, by their first vertices.
     levels: Vec<Vec<u32>>,
 }
 
@@ -35,11 +36,11 @@ impl<'a> Inside<'a> {
     }
 
     fn level(&self, y: f64) -> usize {
-        // Below zero and not a number become the first level.
+        // The cast maps negative values and NaN to the first level.
         (((y - self.low) / self.step) as usize).min(self.levels.len().saturating_sub(1))
     }
 
-    /// Whether the point lies inside; points on the polygon may count as either.
+    /// Whether the point lies inside. For points on the polygon, either answer is possible.
     pub(super) fn contains(&self, p: [f64; 2]) -> bool {
         let Some(edges) = self.levels.get(self.level(p[1])) else {
             return false;

@@ -1,33 +1,37 @@
-//! Step 6, first half: where the rim and the predicted points lie in the plane in which they are triangulated.
+//! Step 6, first half: maps the rim and the predicted points to the plane in which they are triangulated.
+//!
+//! There are three layouts: projection to one plane; projection to two planes, one of which is then turned into the
+//! other; and the sections as parallel lines, side by side, each with its points at their distances along the section.
 //!
 //! Source: W.-C. Xie, X.-F. Zou, "A triangulation-based hole patching method using differential evolution",
-//! Computer-Aided Design 45, 2013, section 4.6, for one plane and for two that are unfolded. The sections laid side
-//! by side carry on its section 6, which asks for more planes on more complex holes: here each section has its own.
-//! `O(m + points)`.
+//! Computer-Aided Design 45, 2013, section 4.6, for the first two layouts. The third one follows its section 6, which
+//! proposes more planes for more complex holes; here each section has its own. `O(m + points)` for `m` rim vertices,
+//! `O(m n + points)` for `n` sections side by side. Not guaranteed: that a layout is one-to-one.
 
 use super::base_points::BasePoint;
 use super::rim::Rim;
 use super::section::Section;
 use super::segmentation::{Plane, fit_plane};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::math::{Vec3, unit};
 
-/// The least distance between two sections laid side by side, and the least height of the ends, in mean edge
-/// lengths: enough for their order to be safe from rounding.
+/// Lower bound on the distance between two sections laid side by side, and on the height of the two ends beyond the
+/// first and the last section, in mean edge lengths. It keeps rounding errors from changing their order.
 const LEAST_STEP: f64 = 0.05;
 
-/// Planes whose normals are closer than this (sine) have no line in common to unfold them along.
+/// Two planes are parallel if the sine of the angle between their normals is below this. They have no line to unfold
+/// along.
 const PARALLEL: f64 = 1e-3;
 
-/// The rim and the predicted points in a plane; the rim runs counter-clockwise if it can.
+/// The rim and the predicted points in a plane. The rim is counter-clockwise where the layout is one-to-one.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layout {
     pub(super) rim: Vec<[f64; 2]>,
-    /// The points of the sections, in order; none for those that are to be left out.
+    /// The points of the sections, in order; `None` for a point that is to be left out.
     pub(super) inside: Vec<Option<[f64; 2]>>,
 }
 
-/// What is laid out.
+/// The input of a layout.
 pub(super) struct Scene<'a> {
     pub(super) rim: &'a Rim,
     /// The base points in the order in which `i` and `n - 1 - i` are partners.
@@ -36,7 +40,7 @@ pub(super) struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    /// The place of a rim vertex among the base points: `k` at base point `k`.
+    /// The position of a rim vertex in the sequence of base points, as a fractional index.
     fn place(&self, vertex: usize) -> f64 {
         let perimeter = self.rim.perimeter();
         let start = self.base.first().map_or(0.0, |b| b.arc);
@@ -50,7 +54,7 @@ impl Scene<'_> {
             .flat_map(|s| s.points.iter().map(|p| (s.pair.first, p)))
     }
 
-    /// Projects everything to the plane of the base points.
+    /// Projects all points to the least squares plane of the base points.
     pub(super) fn on_one_plane(&self) -> Layout {
         let positions: Vec<Vec3> = if self.base.len() < 3 {
             self.rim.points.clone()
@@ -66,16 +70,16 @@ impl Scene<'_> {
         }
     }
 
-    /// Projects the sections before `fold` to one plane, those from it on to another, and turns the second one
-    /// round the line in which they meet until they are one.
+    /// Projects the sections before `fold` to one plane and the others to a second plane. Then the second plane is
+    /// turned round the line in which both meet, into the first.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] when the planes do not meet or the parts lie on the wrong sides of the line.
+    /// [`crate::ErrorKind::Geometry`] when the planes do not meet or the parts lie on the wrong sides of the line.
     pub(super) fn on_two_planes(&self, fold: usize) -> Result<Layout> {
         let n = self.base.len();
         let is_far = |place: f64| place >= fold as f64 && place <= (n - 1 - fold) as f64;
         let positions = |far: bool| -> Vec<Vec3> {
-            // The near part begins after the end of the far one, so that it follows the rim.
+            // The near part starts after the end of the far part, so that its points follow the rim.
             (0..n)
                 .map(|k| (k + n - fold) % n)
                 .filter(|&k| is_far(k as f64) == far)
@@ -96,10 +100,12 @@ impl Scene<'_> {
         if line.cross(&up).dot(&far.normal) < 0.0 {
             line = -line;
         }
-        // In the near plane, the same turn to the left of the line.
+        // The left side of the line, in the near plane.
         let down = near.normal.cross(&line);
         if down.dot(&(near.center - origin)) > 0.0 {
-            return Err(refusal("the two planes of the rim do not unfold"));
+            return Err(refusal(
+                "the two planes of the rim cannot be unfolded: their parts lie on the wrong sides",
+            ));
         }
         let project = |p: &Vec3, far: bool| {
             let d = p - origin;
@@ -117,10 +123,10 @@ impl Scene<'_> {
         })
     }
 
-    /// Lays the sections side by side, each along a line `y = const`, with its points at their distances from its
-    /// first end. The rim between two sections, before the first and after the last one keeps its shape as seen from
-    /// the nearest section, or is drawn straight if `is_straight`: then no part of it meets another. Points that come
-    /// to lie outside get no place.
+    /// Lays the sections side by side. Each lies on a line `y = const`, with its points at their distances along the
+    /// section from its first end. The rim between the ends of neighboring sections is drawn straight if `is_straight`;
+    /// then it cannot meet itself. Otherwise it keeps its shape, projected to the plane of the nearest section. Points
+    /// that would lie outside the rim get no position.
     pub(super) fn side_by_side(&self, is_straight: bool) -> Layout {
         let rows: Vec<Row> = self.rows();
         if rows.is_empty() {
@@ -142,12 +148,13 @@ impl Scene<'_> {
         }
     }
 
-    /// Where a rim vertex lies beside the sections.
+    /// The position of a rim vertex when the sections are laid side by side.
     fn beside_rows(&self, vertex: usize, rows: &[Row], is_straight: bool) -> [f64; 2] {
         let n = self.base.len() as f64;
         let place = self.place(vertex);
         let (bottom, top) = (&rows[0], &rows[rows.len() - 1]);
-        // The ends of sections between which the vertex lies: where they are laid, and where they are.
+        // The two ends of sections between which the vertex lies, in the layout and in space; its share of the way from
+        // one to the other; and the row whose directions count.
         let (from, to, share, row) = if place < bottom.first || place > bottom.second {
             let since = (place - bottom.second).rem_euclid(n);
             let share = since / (bottom.first - bottom.second + n);
@@ -169,7 +176,7 @@ impl Scene<'_> {
         let mut laid = [0, 1].map(|k| from.0[k] + (to.0[k] - from.0[k]) * share);
         let away = self.rim.points[vertex] - from.1.lerp(&to.1, share);
         if is_straight {
-            // Only the ends bulge, so that the rows are inside.
+            // The rim bulges only beyond the first and the last row, so that the rows are inside.
             let bulge = away.norm().max(LEAST_STEP * self.rim.edge_length);
             let is_below = place < bottom.first || place > bottom.second;
             let is_above = place > top.first && place < top.second;
@@ -228,30 +235,34 @@ impl Scene<'_> {
 
 /// A section laid along a line.
 struct Row {
-    /// Where its ends are in space, and the directions along it, to its first end, and ahead.
+    /// Its ends in space.
     ends: [Vec3; 2],
+    /// Unit direction in space from the second end to the first.
     across: Vec3,
+    /// Unit direction in space to the next section.
     ahead: Vec3,
-    /// Places of its ends among the base points.
+    /// Indices of the base points at its ends.
     first: f64,
     second: f64,
     half_width: f64,
     y: f64,
-    /// Of its points from the first end.
+    /// Distances of its points from the first end, along the section.
     distances: Vec<f64>,
 }
 
 impl Row {
-    /// The first end, where it is laid and where it is.
+    /// The first end, in the layout and in space.
     fn right(&self) -> ([f64; 2], Vec3) {
         ([self.half_width, self.y], self.ends[0])
     }
 
+    /// The second end, in the layout and in space.
     fn left(&self) -> ([f64; 2], Vec3) {
         ([-self.half_width, self.y], self.ends[1])
     }
 
-    /// The place of the point at a distance from the first end, between the places where the rim crosses the line.
+    /// The position of the point at a distance from the first end. `crossings` are the `x` at which the rim crosses the
+    /// line of the row; the row is fitted between the two nearest to its ends. `None` for a point outside the rim.
     fn place(&self, distance: f64, crossings: &[f64]) -> Option<[f64; 2]> {
         let nearest = |x: f64| {
             let distance = |c: &&f64| (**c - x).abs();
@@ -267,7 +278,7 @@ impl Row {
     }
 }
 
-/// The `x` at which the polygon crosses the height `y`, in order.
+/// The `x` at which the polygon crosses the height `y`, in ascending order.
 fn crossings(polygon: &[[f64; 2]], y: f64) -> Vec<f64> {
     let mut crossings = Vec::new();
     for (i, a) in polygon.iter().enumerate() {
@@ -291,7 +302,7 @@ fn axes(normal: Vec3) -> (Vec3, Vec3) {
     (x, normal.cross(&x))
 }
 
-/// The point on both planes that is closest to the middle of their centers.
+/// The point on both planes that is nearest to the midpoint of their centers.
 fn meeting_point(a: &Plane, b: &Plane, cross: &Vec3) -> Vec3 {
     let middle = (a.center + b.center) / 2.0;
     let (da, db) = (
@@ -303,5 +314,5 @@ fn meeting_point(a: &Plane, b: &Plane, cross: &Vec3) -> Vec3 {
 }
 
 fn refusal(message: &str) -> Error {
-    Error::new(ErrorKind::Geometry, message)
+    Error::geometry(message)
 }

@@ -1,43 +1,46 @@
-//! Step 7, second half: too short edges are collapsed, edges are swapped for better angles.
+//! Step 7, second half: collapses edges that are too short, and swaps edges for better angles.
+//!
+//! Rim vertices do not move, and rim edges stay. No collapse or swap makes an edge between two rim vertices that the
+//! mesh joins already, turns a triangle over, or makes the patch non-manifold.
 //!
 //! Source: W.-C. Xie, X.-F. Zou, "A triangulation-based hole patching method using differential evolution",
-//! Computer-Aided Design 45, 2013, sections 4.7 and 4.8; the order of the collapses is the economical one of 4.8.
-//! `O(n log n)` for `n` triangles of bounded degree.
-//!
-//! Rim vertices stay where they are and rim edges stay edges. No collapse or swap joins two rim vertices that the
-//! mesh joins already, turns a triangle over or makes the patch non-manifold.
+//! Computer-Aided Design 45, 2013, sections 4.7 and 4.8, with the economical order of collapses of 4.8.
+//! `O(n log n)` for `n` triangles whose vertices have bounded valence.
 
 use crate::error::Result;
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::{Vec3, cross_normal, unit};
+use crate::patch::PatchSurface;
 use crate::patch::chords::{joined_chords, split_middle};
 use crate::patch::mesh::{Halfedge, PatchMesh, next, prev};
-use crate::patch::{HoleShape, PatchSurface};
 use std::collections::BTreeSet;
 
-/// A triangle may turn by less than the angle with this cosine when an edge is collapsed or swapped.
+/// A collapse or swap must not turn a normal so far that the cosine of the angle is below this, 60°.
 const LARGEST_TURN: f64 = 0.5;
 
-/// A swap must raise the smallest angle by this many radians, so that rounding cannot swap back and forth.
+/// Lower bound on the gain of the smallest angle by a swap, in radians. It keeps rounding errors from swapping an edge
+/// back and forth.
 const LEAST_GAIN: f64 = 1e-6;
 
-/// The patch while it is changed.
+/// A patch that is being changed.
 pub(super) struct Editor<'a> {
     mesh: PatchMesh,
     points: Vec<Vec3>,
-    hole: &'a HoleShape,
+    hole: &'a Hole,
     /// The number of the last change of each triangle, and how many there were. Of two triangles at an edge the one that
     /// was changed earlier comes first, which settles the order of the swaps.
     changed: Vec<usize>,
+    /// Number of changes so far.
     changes: usize,
 }
 
 impl<'a> Editor<'a> {
-    /// Splits every edge that joins two rim vertices which the mesh joins already.
+    /// Starts with a patch. Each edge between two rim vertices that the mesh joins already is split.
     ///
     /// # Errors
     /// Those of [`PatchMesh::new`].
-    pub(super) fn new(surface: PatchSurface, hole: &'a HoleShape) -> Result<Self> {
+    pub(super) fn new(surface: PatchSurface, hole: &'a Hole) -> Result<Self> {
         let triangle_count = surface.triangles.len();
         let point_count = surface.points.len();
         let mut editor = Self {
@@ -62,9 +65,9 @@ impl<'a> Editor<'a> {
         Ok(editor)
     }
 
-    /// The patch without what is gone, and without points that no triangle has.
+    /// The patch, without triangles that were removed and without points that no triangle uses.
     pub(super) fn finish(self) -> PatchSurface {
-        let rim_count = self.hole.points.len();
+        let rim_count = self.hole.rim().len();
         let mut number = vec![u32::MAX; self.points.len()];
         let mut points = Vec::new();
         for (v, p) in self.points.iter().enumerate() {
@@ -110,14 +113,15 @@ impl<'a> Editor<'a> {
         self.normal(self.triangle(h))
     }
 
-    /// Notes that triangle `t` changes.
+    /// Records a change of triangle `t`.
     fn touch(&mut self, t: u32) {
         self.changed.resize(self.mesh.triangles().len(), 0);
         self.changed[t as usize] = self.changes;
         self.changes += 1;
     }
 
-    /// The half-edges between two vertices whose edge has two triangles, that of the first triangle first.
+    /// The two halfedges of the edge between two vertices, that of the earlier changed triangle first. `None` if there
+    /// is no such edge with two triangles.
     fn sides(&self, a: u32, b: u32) -> Option<[Halfedge; 2]> {
         let h = self.mesh.edge_between(a, b)?;
         let g = self.mesh.opposite(h)?;
@@ -126,7 +130,7 @@ impl<'a> Editor<'a> {
         Some(sides)
     }
 
-    /// All edges that have two triangles, smaller end first, sorted.
+    /// All edges with two triangles, each with its smaller end first, sorted.
     fn interior_edges(&self) -> Vec<(u32, u32)> {
         let ends = |h| (self.mesh.origin(h), self.mesh.target(h));
         let edges = self.mesh.interior_edges().map(ends);
@@ -135,8 +139,8 @@ impl<'a> Editor<'a> {
         edges
     }
 
-    /// Collapses edges that are shorter than `shortest`, the shortest first, and returns how many. Two interior
-    /// points meet half way; a rim vertex stays where it is.
+    /// Collapses edges that are shorter than `shortest`, the shortest first, and returns their number. Two interior
+    /// points move to their midpoint; an interior point moves to a rim vertex.
     pub(super) fn collapse_short(&mut self, shortest: f64) -> usize {
         let key = |editor: &Self, (a, b): (u32, u32)| (editor.length(a, b).to_bits(), a, b);
         let mut sorted: Vec<(u64, u32, u32)> = self
@@ -146,7 +150,8 @@ impl<'a> Editor<'a> {
             .filter(|e| f64::from_bits(e.0) < shortest)
             .collect();
         sorted.sort_unstable();
-        // The sorted edges from `id` on, and those that collapses renewed: the set NS of the paper.
+        // Edges still to collapse: the sorted ones from `id` on, and those that collapses changed (the set NS of the
+        // paper).
         let (mut id, mut renewed) = (0, BTreeSet::new());
         let mut count = 0;
         loop {
@@ -165,7 +170,7 @@ impl<'a> Editor<'a> {
                 renewed.remove(&edge);
             }
             let (a, b) = (edge.1, edge.2);
-            // Gone or changed since.
+            // The edge was removed or changed since.
             if self.sides(a, b).is_none() || self.length(a, b).to_bits() != edge.0 {
                 continue;
             }
@@ -183,7 +188,7 @@ impl<'a> Editor<'a> {
         }
     }
 
-    /// Collapses an interior edge, if that is allowed; returns the vertex that is left.
+    /// Collapses an interior edge, if that is allowed, and returns the vertex that remains.
     fn collapse(&mut self, a: u32, b: u32) -> Option<u32> {
         let (kept, gone) = if self.is_rim(b) { (b, a) } else { (a, b) };
         let position = if self.is_rim(kept) {
@@ -231,13 +236,14 @@ impl<'a> Editor<'a> {
         Some(kept)
     }
 
-    /// Swaps edges as long as that raises the smaller one of the smallest angles at an edge, and returns how many.
+    /// Swaps edges as long as a swap increases the smallest angle of the two triangles at an edge. Returns the number
+    /// of swaps.
     ///
     /// # Errors
-    /// [`ErrorKind::Cancelled`].
+    /// [`crate::ErrorKind::Cancelled`].
     pub(super) fn swap_edges(&mut self, job: &Job<'_>) -> Result<usize> {
         let mut waiting = self.interior_edges();
-        // Taken from the end: the order of the sorted edges.
+        // `pop` takes from the end, so this gives the order of the sorted edges.
         waiting.reverse();
         let mut count = 0;
         while let Some((a, b)) = waiting.pop() {
@@ -255,7 +261,7 @@ impl<'a> Editor<'a> {
         Ok(count)
     }
 
-    /// Swaps an edge if that is allowed and better; returns the ends of the new one.
+    /// Swaps an edge, if that is allowed and better, and returns the ends of the new edge.
     fn swap(&mut self, a: u32, b: u32) -> Option<[u32; 2]> {
         let [h, g] = self.sides(a, b)?;
         let new = self.swapped(h, g)?;
@@ -278,8 +284,8 @@ impl<'a> Editor<'a> {
         Some([new[0][0], new[1][0]])
     }
 
-    /// The triangles that take the places of those of `h` and `g` when their edge is swapped, unless there is such an
-    /// edge already.
+    /// The triangles that replace those of `h` and `g` when their edge is swapped; `None` if the new edge exists
+    /// already in the patch or the mesh.
     fn swapped(&self, h: Halfedge, g: Halfedge) -> Option<[[u32; 3]; 2]> {
         let mesh = &self.mesh;
         let (a, b, c, d) = (mesh.origin(h), mesh.origin(g), mesh.apex(h), mesh.apex(g));
@@ -296,7 +302,7 @@ impl<'a> Editor<'a> {
         self.touch(g / 3);
     }
 
-    /// Swaps edges at which the patch is folded, if it is folded less afterwards.
+    /// Swaps edges at which the patch is folded, if it is folded less after the swap.
     pub(super) fn unfold(&mut self, folded: f64) {
         for [a, b, c, d] in self.folds(folded) {
             let Some([h, g]) = self.sides(a, b) else {
@@ -309,7 +315,7 @@ impl<'a> Editor<'a> {
                 continue;
             };
             let [at_h, at_g] = new.map(|t| self.normal(t));
-            // The edges round the two triangles: the old normal there, and the new one.
+            // The edges round the two triangles, each with the normal at it before and after the swap.
             let (old_h, old_g) = (self.normal_at(h), self.normal_at(g));
             let round = [
                 (next(h), old_h, at_g),
@@ -329,15 +335,15 @@ impl<'a> Editor<'a> {
             if after > before {
                 self.flip(h, g);
             } else {
-                // What was looked at counts as changed.
+                // The triangles count as changed; this decides the order in `sides`.
                 self.touch(h / 3);
                 self.touch(g / 3);
             }
         }
     }
 
-    /// The edges at which neighbouring triangles turn by more than the angle with the cosine `folded`, each with the
-    /// four vertices of its triangles.
+    /// The edges at which the cosine of the angle between the normals is below `folded`, each with the four vertices of
+    /// its triangles.
     pub(super) fn folds(&self, folded: f64) -> Vec<[u32; 4]> {
         let mut folds = Vec::new();
         for (a, b) in self.interior_edges() {
@@ -351,7 +357,7 @@ impl<'a> Editor<'a> {
     }
 }
 
-/// In radians.
+/// The smallest angle of a triangle, in radians.
 fn smallest_angle(t: [Vec3; 3]) -> f64 {
     (0..3)
         .map(|k| (t[(k + 1) % 3] - t[k]).angle(&(t[(k + 2) % 3] - t[k])))

@@ -1,13 +1,13 @@
-//! Options of what the methods that work by sections share.
+//! The options that the methods `hpde`, `grey` and `nurbs` share.
 
 use crate::options::entry::{choice, options};
 
-/// Where the tangents of the two arcs come from.
+/// How the tangents of a section at the rim are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SectionTangents {
-    /// The section plane cut with the triangle at the base point, as published.
+    /// The intersection of the section plane with the triangle at the base point, as published.
     Chord,
-    /// The section plane cut with the tangent plane of a quadric fitted to the surroundings.
+    /// The intersection of the section plane with the tangent plane of a quadric fitted to the surroundings.
     Jet,
 }
 
@@ -16,14 +16,14 @@ choice!(SectionTangents {
     Jet = "jet"
 });
 
-/// In what plane the predicted points are triangulated.
+/// Where the predicted points are triangulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SectionProjection {
-    /// The published planes; where they fold the patch, the sections laid side by side.
+    /// `Planes`; if that fails, `Sections`.
     Auto,
-    /// One plane, or two that are unfolded, as published.
+    /// In one plane, or in two planes that are unfolded, as published.
     Planes,
-    /// The sections laid side by side.
+    /// In a plane in which the sections are laid side by side.
     Sections,
 }
 

@@ -1,34 +1,34 @@
-//! The known surface along a section, from the rim outwards: what GREY and NURBS extrapolate.
+//! Samples the known surface along a section plane, from the rim outward. The methods `grey` and `nurbs` extrapolate
+//! these samples into the hole.
 //!
-//! A section plane is followed through the known triangles, from edge to edge. `O(steps)` per section, once the
-//! edges are sorted.
+//! The plane is followed through the known triangles, from edge to edge. `O(n log n)` for `n` known triangles to sort
+//! their edges, then `O(k log n)` for `k` triangles that a section passes.
 
 use super::base_points::BasePoint;
 use super::section::Prepared;
 use crate::error::Result;
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::{Vec3, unit};
-use crate::patch::HoleShape;
-use crate::surroundings::Band;
+use crate::surroundings::fits::QuadricFits;
 
-/// Triangles that a walk passes at most for each step that is asked for: more, and they are slivers.
+/// Upper bound on the triangles that a walk passes for each sample. Only slivers need more.
 const TRIANGLES_PER_STEP: usize = 8;
 
-/// A place on the known surface.
+/// A sample of the known surface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known {
     pub(crate) point: Vec3,
-    /// Unit normal, interpolated between those at vertices: facets turn only at their edges.
+    /// Unit normal, interpolated between the normals of vertices.
     pub(crate) normal: Vec3,
 }
 
-/// The known triangles round a hole, ready to be walked through.
+/// The known triangles round a hole, with their edges sorted.
 pub(crate) struct Outside<'a> {
-    hole: &'a HoleShape,
-    points: Vec<Vec3>,
+    hole: &'a Hole,
     /// Unit normals at the vertices.
     normals: Vec<Vec3>,
-    /// Directed edges with the vertex opposite to them, sorted.
+    /// Directed edges with their opposite vertices, sorted.
     edges: Vec<(u32, u32, u32)>,
 }
 
@@ -36,31 +36,30 @@ impl<'a> Outside<'a> {
     /// Reads the surroundings of a hole.
     ///
     /// # Errors
-    /// `Cancelled` when the job is stopped.
-    pub(crate) fn new(hole: &'a HoleShape, job: &Job<'_>) -> Result<Self> {
+    /// `Cancelled` when the job is cancelled.
+    pub(crate) fn new(hole: &'a Hole, job: &Job<'_>) -> Result<Self> {
         let mut edges: Vec<(u32, u32, u32)> = hole
             .surroundings
-            .triangles
+            .triangles()
             .iter()
             .flat_map(|&[a, b, c]| [(a, b, c), (b, c, a), (c, a, b)])
             .collect();
         edges.sort_unstable();
         job.ask()?;
-        let band = Band::new(hole, job)?;
-        let mut normals = band.triangle_normals.clone();
+        let around = &hole.surroundings;
+        let mut normals = around.normals(job)?.to_vec();
         // Those of triangles would lean to one side at the rim.
-        let at_rim = band.interpolating_normals(hole.points.len(), job)?;
+        let at_rim = QuadricFits::new(around, job)?.normals_at_rim(job)?;
         normals[..at_rim.len()].copy_from_slice(&at_rim);
         Ok(Self {
             hole,
-            points: band.points,
             normals,
             edges,
         })
     }
 
     fn point(&self, v: u32) -> Vec3 {
-        self.points[v as usize]
+        self.hole.surroundings.point(v)
     }
 
     fn between(&self, a: u32, b: u32, share: f64) -> Known {
@@ -77,8 +76,8 @@ impl<'a> Outside<'a> {
         found.map(|e| e.2)
     }
 
-    /// Places of the surface in the section's plane at the distances `step`, `2 step`, … from its base point `start`,
-    /// `count` of them, or fewer if the known triangles end before or the plane leaves them at once.
+    /// Samples of the surface in the section plane, at the distances `step`, `2 step`, … from the base point `start`
+    /// along the surface. There are `count` of them, or fewer if the known triangles end before.
     pub(crate) fn walk(
         &self,
         start: &BasePoint,
@@ -88,7 +87,7 @@ impl<'a> Outside<'a> {
     ) -> Vec<Known> {
         let m = self.hole.polygon.len();
         let side = |p: Vec3| (p - start.position).dot(&section.ahead);
-        // The known triangle has the rim's edge the other way round.
+        // The known triangle has the rim edge in the opposite direction.
         let mut from = self.hole.polygon[(start.edge + 1) % m];
         let mut to = self.hole.polygon[start.edge];
         let mut last = Known {
@@ -96,14 +95,14 @@ impl<'a> Outside<'a> {
             normal: start.normal,
         };
         let mut found = Vec::with_capacity(count);
-        // How much of the next step is done.
+        // The part of the next step that lies in triangles already passed.
         let mut done = 0.0;
         for _ in 0..TRIANGLES_PER_STEP * count {
             let Some(tip) = self.opposite(from, to) else {
                 break;
             };
             let [a, b, c] = [from, to, tip].map(|v| side(self.point(v)));
-            // Out through the edge whose ends the plane parts.
+            // The plane leaves through the edge whose ends are on different sides of it.
             let (p, q, s, t) = if (c > 0.0) == (a > 0.0) {
                 (tip, to, c, b)
             } else {
@@ -129,7 +128,7 @@ impl<'a> Outside<'a> {
             }
             done = length + step - at;
             last = next;
-            // Beyond the edge, the next triangle has it the other way round.
+            // The next triangle has this edge in the opposite direction.
             (from, to) = (p, q);
         }
         found
@@ -142,10 +141,10 @@ mod tests {
     use super::super::correspondences::Correspondence;
     use super::super::rim::Rim;
     use super::*;
-    use crate::patch::Surroundings;
+    use crate::surroundings::Surroundings;
 
     /// A sheet of unit squares, each cut in two, round a hole of 4 by 4, at the heights of a function.
-    pub(super) fn sheet(height: impl Fn(f64, f64) -> f64) -> HoleShape {
+    pub(super) fn sheet(height: impl Fn(f64, f64) -> f64) -> Hole {
         let side = 15_usize;
         let is_hole = |i: usize, j: usize| (5..9).contains(&i) && (5..9).contains(&j);
         let number = |i: usize, j: usize| (i * side + j) as u32;
@@ -184,15 +183,15 @@ mod tests {
             let of_others = || others.iter().position(|&w| w == v).map(|k| k + rim.len());
             of_rim.or_else(of_others).unwrap_or(0) as u32
         };
-        HoleShape {
-            points: rim.iter().map(|&v| at(v)).collect(),
+        Hole {
             polygon: (0..rim.len() as u32).collect(),
-            surroundings: Surroundings {
-                points: others.iter().map(|&v| at(v)).collect(),
-                levels: vec![1; others.len()],
-                triangles: triangles.iter().map(|t: &[u32; 3]| t.map(place)).collect(),
-            },
-            ..HoleShape::default()
+            surroundings: Surroundings::new(
+                rim.len(),
+                rim.iter().chain(&others).map(|&v| at(v)).collect(),
+                [vec![0; rim.len()], vec![1; others.len()]].concat(),
+                triangles.iter().map(|t: &[u32; 3]| t.map(place)).collect(),
+            ),
+            ..Hole::default()
         }
     }
 
@@ -200,7 +199,7 @@ mod tests {
     fn a_walk_follows_the_surface_at_equal_steps() {
         let hole = sheet(|x, _| 0.5 * x);
         let normal = Vec3::new(-0.5, 0.0, 1.0).normalize();
-        let rim = Rim::new(hole.points.clone(), vec![normal; 16], None, 1.0);
+        let rim = Rim::new(hole.rim().to_vec(), vec![normal; 16], None, 1.0);
         let base = base_points(&rim, 0.7);
         let outside = Outside::new(&hole, &Job::unlimited()).unwrap();
         let mut count = 0;
@@ -232,7 +231,7 @@ mod tests {
     #[test]
     fn a_walk_ends_where_the_known_triangles_end() {
         let hole = sheet(|_, _| 0.0);
-        let rim = Rim::new(hole.points.clone(), vec![Vec3::z(); 16], None, 1.0);
+        let rim = Rim::new(hole.rim().to_vec(), vec![Vec3::z(); 16], None, 1.0);
         let base = base_points(&rim, 0.7);
         let outside = Outside::new(&hole, &Job::unlimited()).unwrap();
         let section = Prepared {

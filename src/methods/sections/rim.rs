@@ -1,20 +1,20 @@
-//! The rim as the steps of HPDE read it.
+//! The rim of a hole as the sections read it: positions, normals, and distances along it. `O(m)` for `m` rim vertices.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
+use crate::hole::Hole;
 use crate::math::{Vec3, unit};
-use crate::patch::HoleShape;
 
-/// A closed polygon in the patch's orientation, with the known surface along it.
+/// A closed polygon in the patch's orientation, with normals of the known surface along it.
 #[derive(Clone, Debug)]
 pub(super) struct Rim {
     pub(super) points: Vec<Vec3>,
     /// Unit normal of the known triangle at each edge.
     pub(super) edge_normals: Vec<Vec3>,
-    /// Unit normal of the known surface at each vertex; without them, those of the edges are used.
+    /// Unit normal of the known surface at each vertex. If there are none, those of the edges are used.
     pub(super) vertex_normals: Option<Vec<Vec3>>,
-    /// Mean edge length of the known triangles that touch the rim, `EdgeLen`.
+    /// See [`mean_edge_length`]; `EdgeLen` in the paper.
     pub(super) edge_length: f64,
-    /// Distance along the rim of each vertex, and the perimeter.
+    /// Distance of each vertex along the rim from the first one, and the perimeter.
     pub(super) arcs: Vec<f64>,
 }
 
@@ -44,7 +44,7 @@ impl Rim {
         self.points.len()
     }
 
-    /// Whether the rim has a vertex after one distance along it and before another.
+    /// Whether a vertex lies strictly between two places, given by their distances along the rim.
     pub(super) fn has_vertex_between(&self, from: f64, to: f64) -> bool {
         let arcs = &self.arcs[..self.len()];
         let next = arcs.partition_point(|a| *a <= from);
@@ -61,13 +61,13 @@ impl Rim {
     }
 }
 
-/// Refuses holes with islands and rims that pass a vertex twice: sections need one simple curve.
+/// Refuses holes with islands and rims that pass a vertex twice. Sections need one simple curve.
 ///
 /// # Errors
-/// [`ErrorKind::Topology`].
-pub(super) fn check_simple(hole: &HoleShape) -> Result<()> {
-    let mut seen = vec![false; hole.points.len()];
-    let is_simple = hole.polygon.len() == hole.points.len()
+/// [`crate::ErrorKind::Topology`].
+pub(super) fn check_simple(hole: &Hole) -> Result<()> {
+    let mut seen = vec![false; hole.rim().len()];
+    let is_simple = hole.polygon.len() == hole.rim().len()
         && hole
             .polygon
             .iter()
@@ -75,23 +75,20 @@ pub(super) fn check_simple(hole: &HoleShape) -> Result<()> {
     if is_simple {
         return Ok(());
     }
-    Err(Error::new(
-        ErrorKind::Topology,
-        "the hole has an island or a vertex that its rim passes twice, which HPDE cannot section",
+    Err(Error::topology(
+        "the hole has an island, or its rim passes a vertex twice; methods with sections need one simple curve",
     ))
 }
 
-/// The normals of the known triangles along the rim; where one has no area, that of the nearest one before it.
+/// The normals of the known triangles along the rim. A triangle without area gets the normal of the last one before it
+/// that has an area.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] if none has an area.
-pub(super) fn edge_normals(hole: &HoleShape) -> Result<Vec<Vec3>> {
+/// [`crate::ErrorKind::Geometry`] if none has an area.
+pub(super) fn edge_normals(hole: &Hole) -> Result<Vec<Vec3>> {
     let m = hole.polygon.len();
     let Some(first) = hole.outside_normals.iter().position(Option::is_some) else {
-        return Err(Error::new(
-            ErrorKind::Geometry,
-            "no triangle along the rim has an area",
-        ));
+        return Err(Error::geometry("no triangle along the rim has an area"));
     };
     let mut normals = vec![Vec3::zeros(); m];
     let mut last = Vec3::zeros();
@@ -103,22 +100,18 @@ pub(super) fn edge_normals(hole: &HoleShape) -> Result<Vec<Vec3>> {
     Ok(normals)
 }
 
-/// Mean edge length of the known triangles that touch the rim, each triangle's edges counted, but at most the mean
-/// length of the rim's edges, which is the unit: on a horn triangles can be long away from the rim, and the patch
-/// has to meet the rim.
-pub(super) fn mean_edge_length(hole: &HoleShape) -> f64 {
-    let rim_count = hole.points.len();
-    let point = |v: u32| match (v as usize).checked_sub(rim_count) {
-        Some(outer) => hole.surroundings.points[outer],
-        None => hole.points[v as usize],
-    };
+/// Mean edge length of the known triangles that touch the rim, but at most 1, the mean length of the rim's edges. The
+/// bound matters on a horn, whose triangles can be long in the direction away from the rim.
+pub(super) fn mean_edge_length(hole: &Hole) -> f64 {
+    let around = &hole.surroundings;
+    let rim_count = hole.rim().len();
     let (mut sum, mut count) = (0.0, 0.0);
-    for t in &hole.surroundings.triangles {
+    for t in around.triangles() {
         if t.iter().all(|&v| v as usize >= rim_count) {
             continue;
         }
         for k in 0..3 {
-            sum += (point(t[k]) - point(t[(k + 1) % 3])).norm();
+            sum += (around.point(t[k]) - around.point(t[(k + 1) % 3])).norm();
             count += 1.0;
         }
     }

@@ -1,4 +1,5 @@
-//! Steps 4 and 5: the section planes and the points predicted on them.
+//! Steps 4 and 5: computes the plane and the two arcs of each section, and removes predicted points that cross a
+//! neighboring section. `O(n + p)` for `n` sections and `p` points.
 //!
 //! Source: W.-C. Xie, X.-F. Zou, "A triangulation-based hole patching method using differential evolution",
 //! Computer-Aided Design 45, 2013, sections 4.4 and 4.5, equations 11 to 16.
@@ -7,28 +8,30 @@ use super::arcs::Arc;
 use super::base_points::{BasePoint, rim_direction};
 use super::correspondences::Correspondence;
 use super::options::SectionOptions;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::math::{Vec3, unit};
 
-/// Arcs that rise or fall more steeply than this at their ends, in radians, go almost once round their circle:
-/// the surface is a tube along the rim and no cap between its sides.
+/// Upper bound on the angle between the line of a section and the surface at its ends, in radians (150°). A steeper arc
+/// would go almost once round its circle: the surface is a tube along the rim, and not a cap over the hole.
 const STEEPEST: f64 = 2.62;
 
-/// The section plane stands on the surface unless the sine of the angle between the plane and the mean of the normals
-/// at its ends is above this: 45°.
+/// Upper bound on the sine of the angle between a section plane and the mean of the normals at its ends, 45°. A plane
+/// that leans more does not cut the surface well.
 const LEANING: f64 = 0.7;
 
-/// A surface is tangent to the section plane when the sine of the angle between their normals is below this.
+/// The surface is tangent to the section plane if the sine of the angle between their normals is below this.
 const TANGENT: f64 = 1e-3;
 
-/// Part of the mean edge length by which a point must be ahead of the section behind it, and behind the one ahead.
+/// Lower bound on the distance of a predicted point from the planes of the sections before and after its own, in mean
+/// edge lengths.
 const CLEARANCE: f64 = 0.1;
 
-/// Part of the predicted points that may be left out because their sections cross.
+/// Upper bound on the share of predicted points that are left out because their sections cross.
 const MOST_CROSSING: f64 = 0.5;
 
-/// A section before its points are predicted. Its plane has the first base point as origin, `x` points to the second
-/// one and `y` is across the line between them; `ahead`, its normal, points on to the next sections.
+/// A section before its points are predicted. The origin of its plane is the first base point. `x` points to the second
+/// base point; `y` is perpendicular to it in the plane. `ahead` is the normal of the plane and points to the next
+/// section.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Prepared {
     pub(crate) pair: Correspondence,
@@ -36,30 +39,30 @@ pub(crate) struct Prepared {
     pub(crate) x: Vec3,
     pub(crate) y: Vec3,
     pub(crate) ahead: Vec3,
-    /// Distance of the base points.
+    /// Distance between the base points.
     pub(crate) length: f64,
     /// The arc that is tangent to the surface at the first base point, and the one at the second.
     pub(crate) arcs: [Arc; 2],
-    /// Points to predict.
+    /// Number of points to predict.
     pub(crate) count: usize,
 }
 
 impl Prepared {
-    /// The mean length of its arcs.
+    /// The mean length of the two arcs.
     fn arc_length(&self) -> f64 {
         (self.arcs[0].arc_length() + self.arcs[1].arc_length()) / 2.0
     }
 
-    /// The distance between its points.
+    /// The distance between predicted points.
     pub(crate) fn step(&self) -> f64 {
         self.arc_length() / (self.count + 1) as f64
     }
 }
 
-/// Points between the base points of each section, in order.
+/// The predicted points of each section, in order from the first base point to the second.
 pub(crate) type Predicted = Vec<Vec<Vec3>>;
 
-/// The points predicted between two base points, in order.
+/// A section with its predicted points.
 #[derive(Clone, Debug)]
 pub(super) struct Section {
     pub(super) pair: Correspondence,
@@ -68,11 +71,12 @@ pub(super) struct Section {
     ahead: Vec3,
 }
 
-/// Finds the section of each pair that has one, with its arcs and its number of points.
+/// Prepares the section of each pair: its plane, its arcs, and its number of points. Pairs without a usable plane or
+/// with too steep arcs get no section.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] when the arcs of most sections are out of reach; [`ErrorKind::Limit`] for more than
-/// `most_points`.
+/// [`ErrorKind::Geometry`] when the arcs of more than half of the sections are too steep; [`ErrorKind::Limit`] for more
+/// than `most_points` points.
 pub(super) fn prepare(
     base: &[BasePoint],
     pairs: &[Correspondence],
@@ -102,7 +106,7 @@ pub(super) fn prepare(
             "the surface leaves {out_of_reach} of {} sections too steeply for an arc",
             pairs.len()
         );
-        return Err(Error::new(ErrorKind::Geometry, message));
+        return Err(Error::geometry(message));
     }
     let longest = sections.iter().fold(0.0, |l: f64, s| l.max(s.arc_length()));
     // Equation 15.
@@ -114,15 +118,15 @@ pub(super) fn prepare(
     }
     if sum > most_points {
         let message = format!("the patch would need more than {most_points} new vertices");
-        return Err(Error::new(ErrorKind::Limit, message));
+        return Err(Error::limit(message));
     }
     Ok(sections)
 }
 
-/// The sections with their points, but for those that are not between their neighbours.
+/// The sections with their points. Points that are not between the neighboring sections are left out.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] when most sections cross.
+/// [`ErrorKind::Geometry`] when more than half of the points are left out.
 pub(super) fn assemble(
     prepared: &[Prepared],
     predicted: Predicted,
@@ -142,8 +146,9 @@ pub(super) fn assemble(
     Ok(sections)
 }
 
-/// Equation 11. `None` where the neighbouring pairs do not say where the section goes, or where its plane lies along
-/// the surface: where the rim ends in a plane across the surface, all lines between its points are in that plane.
+/// The plane of a section, equation 11. `None` when the neighboring pairs do not determine it, or when it leans too
+/// much against the surface. This happens where the rim lies in a plane across the surface: then the plane of the
+/// section is that of the rim.
 fn frame(base: &[BasePoint], pair: Correspondence) -> Option<Prepared> {
     let n = base.len();
     let at = |k: usize| base[k % n].position;
@@ -168,9 +173,10 @@ fn frame(base: &[BasePoint], pair: Correspondence) -> Option<Prepared> {
     })
 }
 
-/// The angles at which the surface leaves the section's line at its two ends, both measured upwards and inwards.
+/// The angles between the line of the section and the surface at its two ends, positive upward. `None` where the
+/// surface is tangent to the section plane.
 fn angles(base: &[BasePoint], pair: Correspondence, frame: &Prepared) -> [Option<f64>; 2] {
-    [(pair.first, 1.0), (pair.second, -1.0)].map(|(k, inwards)| {
+    [(pair.first, 1.0), (pair.second, -1.0)].map(|(k, inward)| {
         let BasePoint { normal, .. } = base[k];
         let rim = rim_direction(base, k);
         let tangent = normal.cross(&frame.ahead);
@@ -182,12 +188,12 @@ fn angles(base: &[BasePoint], pair: Correspondence, frame: &Prepared) -> [Option
         Some(
             into_hole
                 .dot(&frame.y)
-                .atan2(inwards * into_hole.dot(&frame.x)),
+                .atan2(inward * into_hole.dot(&frame.x)),
         )
     })
 }
 
-/// Leaves out the points that are not between the section before and the one after theirs.
+/// Leaves out the points that are not between the planes of the sections before and after their own.
 fn leave_out_crossing(sections: &mut [Section], edge_length: f64) -> Result<()> {
     let clearance = CLEARANCE * edge_length;
     let planes: Vec<(Vec3, Vec3)> = sections.iter().map(|s| (s.origin, s.ahead)).collect();
@@ -207,7 +213,7 @@ fn leave_out_crossing(sections: &mut [Section], edge_length: f64) -> Result<()> 
     if crossing as f64 > MOST_CROSSING * all as f64 {
         let message =
             format!("the section planes cross: {crossing} of {all} points are out of order");
-        return Err(Error::new(ErrorKind::Geometry, message));
+        return Err(Error::geometry(message));
     }
     Ok(())
 }

@@ -1,32 +1,35 @@
-//! Step 2, second half: whether the rim is better seen as two parts that each lie near a plane.
+//! Step 2, second half: decides whether the rim is cut into two parts that each lie near a plane.
+//!
+//! The best cut minimizes the larger one of the smallest variances of its two parts. It is used if the two planes meet
+//! at a sharp angle. Some places are tried as ends of the cut first, then places near the best ones.
 //!
 //! Source: W.-C. Xie, X.-F. Zou, "A triangulation-based hole patching method using differential evolution",
-//! Computer-Aided Design 45, 2013, section 4.2, equation 8. A few thousand tries at most, each in constant time:
-//! `O(n)`. Not guaranteed for more than [`COARSE`] base points: that the cut is the best of all.
+//! Computer-Aided Design 45, 2013, section 4.2, equation 8. `O(n)` for `n` base points; the number of tries is bounded.
+//! Not guaranteed for more than [`COARSE`] base points: that the cut is the best of all.
 
 use super::base_points::BasePoint;
 use crate::math::{Vec3, unit};
 use nalgebra::{Matrix3, SymmetricEigen};
 
-/// Places of the rim that are tried as ends of a cut at first; the search then goes on near the best ones.
+/// Number of places that are tried first as ends of a cut.
 const COARSE: usize = 48;
 
-/// Fewest base points of a part: three always lie on a plane.
+/// Lower bound on the base points of a part. Three always lie in a plane.
 const SMALLEST_PART: usize = 4;
 
-/// Allowance for rounding in degrees, so that a right angle counts as not larger than a right angle.
+/// Tolerance for rounding errors of an angle, in degrees.
 const ROUNDING: f64 = 1e-6;
 
-/// The best cut of the base points: one part is `first..second`, the other the rest.
+/// A cut of the base points into two parts: `first..second`, and the rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Cut {
     pub(super) first: usize,
     pub(super) second: usize,
 }
 
-/// A plane shows a part of the surface when it is not more inclined to the mean normal of the part than the angle
-/// with this cosine, 45°. The rim of a strip is thinnest when cut into its two long sides; their planes stand across
-/// the surface.
+/// Lower bound on the cosine of the angle between the plane of a part and the mean normal of the surface there, 45°.
+/// It excludes the cut of a strip into its two long sides: their variances are smallest, but their planes are
+/// perpendicular to the surface.
 const SHOWS_SURFACE: f64 = 0.7;
 
 /// A plane with a unit normal that is oriented like the mesh.
@@ -36,8 +39,8 @@ pub(super) struct Plane {
     pub(super) normal: Vec3,
 }
 
-/// The plane of least squares of points that follow each other along the rim, oriented by the area that they
-/// enclose.
+/// The least squares plane of points that follow each other along the rim. Its normal is oriented by the area that the
+/// points enclose.
 pub(super) fn fit_plane(points: &[Vec3]) -> Plane {
     let count = points.len().max(1) as f64;
     let center = points.iter().sum::<Vec3>() / count;
@@ -115,7 +118,7 @@ pub(super) fn cut(base: &[BasePoint], critical: f64) -> Option<Cut> {
     (180.0 - between <= critical + ROUNDING).then_some(found)
 }
 
-/// Sums of coordinates and of their products over the first base points.
+/// Prefix sums of the coordinates of the base points and of their products.
 struct PlaneMoments {
     sums: Vec<(Vec3, Matrix3<f64>)>,
 }
@@ -132,7 +135,7 @@ impl PlaneMoments {
         Self { sums }
     }
 
-    /// The larger one of the smallest variances of `first..second` and of the rest.
+    /// The larger one of the smallest variances of the two parts, `first..second` and the rest.
     fn thickness(&self, first: usize, second: usize) -> f64 {
         let total = self.sums[self.sums.len() - 1];
         let (a, b) = (self.sums[first], self.sums[second]);
@@ -197,7 +200,7 @@ mod tests {
     fn the_normal_is_that_of_the_area_enclosed() {
         let positions: Vec<Vec3> = folded(0.0).iter().map(|b| b.position).collect();
         assert!((fit_plane(&positions).normal - Vec3::z()).norm() < 1e-12);
-        let backwards: Vec<Vec3> = positions.into_iter().rev().collect();
-        assert!((fit_plane(&backwards).normal + Vec3::z()).norm() < 1e-12);
+        let backward: Vec<Vec3> = positions.into_iter().rev().collect();
+        assert!((fit_plane(&backward).normal + Vec3::z()).norm() < 1e-12);
     }
 }

@@ -4,12 +4,12 @@
 //! curve unfolding", SMI 2009, section 3.1; W. H. Press, S. A. Teukolsky, W. T. Vetterling, B. P. Flannery,
 //! "Numerical recipes in C", 2nd edition, 1992, section 10.9 (acceptance by the Boltzmann distribution).
 //!
-//! A step moves every vertex along a random direction of its own, by the same length. One that lowers the
-//! planarity energy is accepted and the next one takes directions near to its own; another one is accepted with
-//! the probability exp(-ΔE / (k T)). T falls from level to level by the factor k.
+//! A step moves each vertex in a random direction of its own; all move by the same length. A step that decreases the
+//! planarity energy is accepted, and the next step has similar directions. Another step is accepted with the
+//! probability exp(-ΔE / (k T)). The temperature T falls from level to level by the factor k.
 //!
-//! The steps are shorter than half of the smallest distance of two segments, so the polygon never crosses
-//! itself. O(m) a step besides that distance.
+//! The length of a step is below half of the smallest distance of two segments, so the polygon never crosses itself.
+//! Cost: O(m) for a step, without the computation of that distance.
 
 use super::distance::SegmentDistances;
 use super::energy::planarity;
@@ -18,10 +18,10 @@ use crate::math::{Vec3, unit};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-/// Number of temperatures in a run: with k = 0.9 the last one is half a percent of the first.
+/// Number of temperature levels in a run. With k = 0.9 the last temperature is half a percent of the first.
 const LEVELS: usize = 50;
 
-/// Part of half the smallest distance that a step may take; the rest is for rounding.
+/// Upper bound on a step, as a share of half the smallest distance of two segments. The rest allows for rounding.
 const CLEARANCE_SHARE: f64 = 0.98;
 
 /// One run of the annealing.
@@ -30,9 +30,9 @@ pub(super) struct Annealing<'a> {
     generator: Pcg64,
     points: Vec<Vec3>,
     energy: f64,
-    /// The smallest distance of two segments.
+    /// The smallest distance of two segments that are not neighbors.
     distance: f64,
-    /// The directions of the last step, if it lowered the energy.
+    /// The directions of the last step, if it decreased the energy.
     directions: Option<Vec<Vec3>>,
     temperature: f64,
     steps: usize,
@@ -40,8 +40,8 @@ pub(super) struct Annealing<'a> {
 }
 
 impl<'a> Annealing<'a> {
-    /// Starts at `points`, whose mean edge length is 1 and whose segments, neighbours apart, are further than
-    /// epsilon from each other.
+    /// Starts at `points`. Their mean edge length is 1, and the distance of segments that are not neighbors is above
+    /// epsilon.
     pub(super) fn new(points: &[Vec3], options: &'a UnfoldOptions, generator: Pcg64) -> Self {
         let mut distances = SegmentDistances::default();
         Self {
@@ -57,7 +57,7 @@ impl<'a> Annealing<'a> {
         }
     }
 
-    /// The polygon as it is now.
+    /// The present polygon.
     pub(super) fn points(&self) -> &[Vec3] {
         &self.points
     }
@@ -97,7 +97,7 @@ impl<'a> Annealing<'a> {
         true
     }
 
-    /// A direction for each vertex: near the last one after a step that lowered the energy, else any.
+    /// A direction for each vertex: near the last one if the last step decreased the energy, otherwise any direction.
     fn next_directions(&mut self) -> Vec<Vec3> {
         let generator = &mut self.generator;
         match &self.directions {
@@ -116,7 +116,7 @@ impl<'a> Annealing<'a> {
     }
 }
 
-/// Uniform on the sphere.
+/// A random direction, uniform on the sphere.
 fn any_direction(generator: &mut Pcg64) -> Vec3 {
     let height: f64 = generator.random_range(-1.0..=1.0);
     let turn = generator.random_range(0.0..std::f64::consts::TAU);
@@ -124,7 +124,7 @@ fn any_direction(generator: &mut Pcg64) -> Vec3 {
     Vec3::new(radius * turn.cos(), radius * turn.sin(), height)
 }
 
-/// At most the angle `most` from the unit vector `direction`.
+/// A random direction that makes at most the angle `most` with the unit vector `direction`.
 fn near_direction(direction: Vec3, most: f64, generator: &mut Pcg64) -> Vec3 {
     let angle = generator.random_range(0.0..=most);
     let any = any_direction(generator);

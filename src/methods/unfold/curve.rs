@@ -1,12 +1,15 @@
-//! Curve unfolding: deforms a closed polygon in space to a simple polygon in the plane, without ever letting it
-//! cross itself.
+//! Curve unfolding: deforms a closed polygon in space to a simple polygon in the plane, such that it never crosses
+//! itself on the way.
 //!
-//! Based on: A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular meshes by
-//! curve unfolding", Shape Modeling International, 2009, section 3.1. `annealing` is the solver of the paper,
-//! `descent` ours.
+//! A run of a solver moves the polygon in small steps. It succeeds when the projection of the polygon to its least
+//! squares plane is simple. If a run fails, the next one has other random numbers.
 //!
-//! A motion without crossings keeps the knot that the polygon is: what was unfolded was not knotted, and a
-//! knotted polygon is never unfolded, only given up.
+//! Source: A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular meshes by
+//! curve unfolding", Shape Modeling International, 2009, section 3.1. `annealing` is the solver of the paper; `descent`
+//! is our own.
+//!
+//! A motion without crossings does not change the knot type. So a polygon that was unfolded is not knotted, and a
+//! knotted polygon is never unfolded. Not guaranteed: that every unknotted polygon is unfolded.
 
 use super::annealing::Annealing;
 use super::descent::Descent;
@@ -23,26 +26,26 @@ use crate::triangulate::simple_polygon::Point2;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Unfolding {
-    /// The simple planar polygon, a vertex for each of the curve, in units of the curve's mean edge length. It may
-    /// turn either way.
+    /// The simple planar polygon, with one vertex for each vertex of the curve, in mean edge lengths of the curve. It
+    /// may be clockwise or counter-clockwise.
     pub polygon: Vec<[f64; 2]>,
-    /// Runs of the solver, the last of which succeeded; 0 when the curve was projected as it is.
+    /// Runs of the solver up to the one that succeeded; 0 when the curve itself had a simple projection.
     pub runs: usize,
     /// Accepted steps of the last run.
     pub steps: usize,
-    /// Perimeter of the polygon over that of the curve.
+    /// Perimeter of the polygon, divided by that of the curve.
     pub length_ratio: f64,
-    /// Full turns that the direction of the polygon's edges makes once round it: 1 or -1, up to rounding.
+    /// Turning number of the polygon: 1 or -1, up to rounding.
     pub winding: f64,
 }
 
-/// Unfolds the closed curve through `points` to a simple planar polygon, without letting it cross itself on the
-/// way. The polygon is proved simple by exact predicates.
+/// Unfolds the closed curve through `points` to a simple planar polygon. The curve never crosses itself on the way.
+/// Exact predicates verify that the polygon is simple.
 ///
 /// # Errors
 /// [`ErrorKind::InvalidInput`] for fewer than three points or one that is not finite; [`ErrorKind::Geometry`] when
-/// the curve meets itself or comes nearer to itself than ε; [`ErrorKind::Knotted`] when all runs ended
-/// without a simple polygon, as they do for every knotted curve.
+/// the distance of two parts of the curve is at most `options.epsilon`; [`ErrorKind::Knotted`] when all runs fail, as
+/// they do for every knotted curve.
 ///
 /// # Complexity
 /// Bounded by runs times steps; a step takes about O(m^1.5) for `m` points.
@@ -51,7 +54,7 @@ pub fn unfold_curve(points: &[[f64; 3]], options: &UnfoldOptions, seed: u64) -> 
     unfold(&points, options, seed, &Job::unlimited())
 }
 
-/// As [`unfold_curve`]; [`ErrorKind::Cancelled`] when the job is stopped.
+/// As [`unfold_curve`], for a job of the caller; [`ErrorKind::Cancelled`] when it is cancelled.
 pub(crate) fn unfold(
     points: &[Vec3],
     options: &UnfoldOptions,
@@ -66,13 +69,10 @@ pub(crate) fn unfold(
     }
     let distance = SegmentDistances::default().smallest(&curve);
     if distance.is_nan() || distance <= options.epsilon {
-        return Err(Error::new(
-            ErrorKind::Geometry,
-            format!(
-                "the rim of {} edges comes within {distance:.1e} mean edge lengths of itself",
-                curve.len()
-            ),
-        ));
+        return Err(Error::geometry(format!(
+            "the rim of {} edges comes within {distance:.1e} mean edge lengths of itself",
+            curve.len()
+        )));
     }
     let default_restarts = match options.solver {
         UnfoldSolver::Descent => DESCENT_RUNS,
@@ -97,22 +97,22 @@ pub(crate) fn unfold(
     ))
 }
 
-/// Runs before a curve counts as not unfolded: for the annealing that of the paper. The descent hardly depends
-/// on chance: what it does not unfold at once it seldom unfolds later.
+/// Default for the upper bound on the runs of the annealing, as in the paper.
 const ANNEALING_RUNS: usize = 100;
+/// Default for the upper bound on the runs of the descent. It hardly depends on random numbers, so further runs seldom
+/// succeed.
 const DESCENT_RUNS: usize = 4;
 
-/// A run does no more steps than keep `steps m^1.5` below this, some seconds; `unfold.steps` steps need less for all
-/// but rims of thousands of edges.
+/// Upper bound on `steps · m^1.5` of a run, some seconds of work. It matters only for rims of thousands of edges.
 const MOST_WORK: f64 = 5e8;
 
-/// Steps that a run may take.
+/// Upper bound on the steps of a run for a curve of `m` points.
 fn step_limit(options: &UnfoldOptions, m: usize) -> usize {
     let affordable = MOST_WORK / (m as f64).powf(1.5);
     options.steps.min(affordable as usize).max(1)
 }
 
-/// A run of the descent; the polygon and the number of steps if it was unfolded.
+/// A run of the descent. Returns the polygon and the number of steps if it succeeds.
 fn descend(
     curve: &[Vec3],
     options: &UnfoldOptions,
@@ -133,7 +133,7 @@ fn descend(
     Ok(None)
 }
 
-/// A run of the annealing; the polygon and the number of accepted steps if it was unfolded.
+/// A run of the annealing. Returns the polygon and the number of accepted steps if it succeeds.
 fn anneal(
     curve: &[Vec3],
     options: &UnfoldOptions,
@@ -150,10 +150,10 @@ fn anneal(
     Ok(polygon.map(|polygon| (polygon, accepted)))
 }
 
-/// The curve about its centroid, in units of its mean edge length.
+/// The curve with its centroid as origin and its mean edge length as unit.
 fn in_mean_edges(points: &[Vec3]) -> Result<Vec<Vec3>> {
     let m = points.len();
-    let invalid = |message: String| Error::new(ErrorKind::InvalidInput, message);
+    let invalid = |message: String| Error::invalid(message);
     if m < 3 {
         return Err(invalid(format!("a curve of {m} points is not closed")));
     }
@@ -163,10 +163,7 @@ fn in_mean_edges(points: &[Vec3]) -> Result<Vec<Vec3>> {
         return Err(invalid("a point of the curve is not finite".to_owned()));
     }
     if mean <= f64::MIN_POSITIVE {
-        return Err(Error::new(
-            ErrorKind::Geometry,
-            "all points of the curve coincide",
-        ));
+        return Err(Error::geometry("all points of the curve coincide"));
     }
     Ok(points.iter().map(|p| (p - centroid) / mean).collect())
 }

@@ -1,55 +1,58 @@
-//! Unfolds a closed polygon by making its vertices repel each other, its edges keeping their lengths.
+//! Unfolds a closed polygon: its vertices repel each other while its edges keep their lengths.
 //!
-//! Based on: J. H. Cantarella, E. D. Demaine, H. N. Iben, J. F. O'Brien, "An energy-driven approach to linkage
-//! unfolding", Symposium on Computational Geometry, 2004 (a repulsive energy opens a chain of fixed edge
-//! lengths), with the bound on the steps of A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes
-//! in triangular meshes by curve unfolding", SMI 2009, section 3.1, taken vertex by vertex.
+//! The energy is the sum of the inverse distances of all pairs of vertices. Each step:
 //!
-//! Each step goes down the gradient of the sum of the inverse distances of all vertices, smoothed along the
-//! polygon so that its long parts turn as a whole, and pulls the edges back to their lengths. Then each vertex
-//! goes at most just under half of the distance of its two segments to the other ones: no two points of two
-//! segments can go as far together as they are apart, so the polygon never crosses itself.
+//! 1. Compute the forces, which are the negative gradient of the energy, and smooth them along the polygon, so that
+//!    long parts move as a whole. They give a target for each vertex.
+//! 2. Change the targets so that edges get their lengths back and near segments move apart.
+//! 3. Move each vertex toward its target, but by less than half of the distance between its two segments and all
+//!    others. So no two segments can meet, and the polygon never crosses itself.
 //!
-//! O(m^1.5) a step for the forces: vertices far away act together, in runs of √m. Not guaranteed: that the energy
-//! falls in each step, that the lengths are kept where the bound is tight, that an unknot gets unfolded.
+//! Sources: J. H. Cantarella, E. D. Demaine, H. N. Iben, J. F. O'Brien, "An energy-driven approach to linkage
+//! unfolding", Symposium on Computational Geometry, 2004, for the energy. The bound on steps is that of A. Brunton,
+//! S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular meshes by curve unfolding", SMI 2009,
+//! section 3.1, but for each vertex.
+//!
+//! Cost: O(m^1.5) for the forces of a step; far vertices act together, in runs of √m. Not guaranteed: that the energy
+//! decreases in each step, that lengths are kept where the bound is tight, that every unknotted polygon is unfolded.
 
 use super::distance::{Clearances, SegmentDistances};
 use crate::math::{Vec3, unit};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-/// Longest way of a vertex in one step before the edges are pulled back, in mean edge lengths: longer steps turn
-/// edges so far that their lengths are lost, shorter ones only need more steps.
+/// Distance from the vertex with the largest force to its first target, in mean edge lengths. With longer steps, edges
+/// would turn so far that they lose their lengths.
 const STEP: f64 = 0.5;
 
-/// The forces are smoothed over this part of the polygon: enough for the arms of a folded rim to swing as a
-/// whole.
+/// Width over which forces are smoothed along the polygon, as a share of its number of vertices. It is large enough for
+/// the arms of a folded rim to move as a whole.
 const SMOOTHING_SHARE: f64 = 0.1;
 
-/// Times that all edges are pulled to their length, and near segments pushed apart, in a step; what is left of
-/// both is for the next steps.
+/// Number of sweeps in a step that restore lengths and push near segments apart.
 const SWEEPS: usize = 20;
 
-/// Segments that are nearer than this, in mean edge lengths, are pushed apart: the vertices' forces do not see
-/// that the middles of two edges touch.
+/// Distance below which two segments are pushed apart, in mean edge lengths. Forces act on vertices only, so they do
+/// not keep the middles of two edges apart.
 const CONTACT: f64 = 0.5;
 
-/// Distances of segments are known up to this, in mean edge lengths: no step can be longer than half of it.
+/// Distances of segments are computed up to this, in mean edge lengths. No step is longer than half of it.
 const REACH: f64 = 4.0 * STEP;
 
-/// Part of half the distance to other segments that a vertex may go; the rest is for rounding.
+/// Upper bound on the motion of a vertex, as a share of half the distance to other segments. The rest allows for
+/// rounding.
 const CLEARANCE_SHARE: f64 = 0.98;
 
-/// A run of vertices acts as one when it is further away than this many times its radius; the error of the force
-/// is then below a tenth.
+/// Lower bound on the distance at which a run of vertices acts as one, in radii of the run. The error of the force is
+/// then below a tenth.
 const FAR: f64 = 3.0;
 
-/// Forces of a random direction are added to the first steps of all runs but the first, of this strength
-/// relative to the mean force.
+/// Strength of the random forces that disturb all runs of the solver but the first, relative to the mean force.
 const KICK: f64 = 1.0;
+/// Number of steps that are disturbed.
 const KICKED_STEPS: usize = 100;
 
-/// A run has stalled when the energy fell by less than this part in so many steps.
+/// The descent has stalled if the energy decreased by less than the share `STALL_SHARE` in `STALL_STEPS` steps.
 const STALL_SHARE: f64 = 1e-3;
 const STALL_STEPS: usize = 200;
 
@@ -69,8 +72,8 @@ pub(super) struct Descent {
 }
 
 impl Descent {
-    /// Starts at `points`, whose mean edge length is 1, and keeps non-neighbouring segments more than `epsilon`
-    /// apart, as they must be at the start. With a generator the first steps are disturbed by it.
+    /// Starts at `points`, whose mean edge length is 1. The distance of segments that are not neighbors must be above
+    /// `epsilon`, and stays so. `kicks` disturbs the first steps.
     pub(super) fn new(points: &[Vec3], epsilon: f64, kicks: Option<Pcg64>) -> Self {
         let m = points.len();
         Self {
@@ -89,12 +92,12 @@ impl Descent {
         }
     }
 
-    /// The polygon as it is now.
+    /// The present polygon.
     pub(super) fn points(&self) -> &[Vec3] {
         &self.points
     }
 
-    /// Moves the polygon once. False when the run has stalled: further steps would change little.
+    /// Does one step. Returns false if the descent has stalled.
     pub(super) fn step(&mut self) -> bool {
         let energy = self.repel();
         if self.steps.is_multiple_of(STALL_STEPS) {
@@ -140,7 +143,7 @@ impl Descent {
                 *force += d * (count * inverse * inverse * inverse);
             };
             for (k, members) in runs.iter().enumerate() {
-                let d = p - members.centre;
+                let d = p - members.center;
                 if d.norm_squared() > members.far_sq {
                     add(d, members.count);
                     continue;
@@ -157,7 +160,7 @@ impl Descent {
         energy
     }
 
-    /// Disturbs the forces.
+    /// Adds random vectors to the forces, in the first steps of a disturbed run.
     fn kick(&mut self) {
         let Some(generator) = self.kicks.as_mut().filter(|_| self.steps < KICKED_STEPS) else {
             return;
@@ -169,7 +172,8 @@ impl Descent {
         }
     }
 
-    /// Pulls the ends of each edge of the targets towards its length, forwards and backwards in turn.
+    /// Moves the targets at the ends of each edge so that the edge gets its length. Sweeps run forward and backward in
+    /// turn.
     fn keep_lengths(&mut self, sweep: usize) {
         let m = self.targets.len();
         for k in 0..m {
@@ -189,7 +193,7 @@ impl Descent {
         }
     }
 
-    /// Pushes the targets of segments that are near to each other apart, where they are nearest now.
+    /// Moves the targets of near segments apart, along the line between their nearest points before the step.
     fn keep_apart(&mut self) {
         let m = self.targets.len();
         for contact in &self.clearances.contacts {
@@ -212,7 +216,7 @@ impl Descent {
         }
     }
 
-    /// Goes to the targets, or as far towards them as the clearances allow.
+    /// Moves the vertices to their targets, or as far as the distances of segments allow.
     fn go(&mut self) {
         let places = self.points.iter_mut().zip(&self.targets);
         for ((point, target), clearance) in places.zip(&self.clearances.distances) {
@@ -228,36 +232,35 @@ impl Descent {
     }
 }
 
-/// Successive vertices that act as one from far away.
+/// Successive vertices that act as one at a large distance.
 struct Run {
-    centre: Vec3,
+    center: Vec3,
     count: f64,
-    /// Squared distance from which they do.
+    /// Square of that distance.
     far_sq: f64,
 }
 
 impl Run {
     fn of(points: &[Vec3]) -> Self {
         let count = points.len() as f64;
-        let centre = points.iter().sum::<Vec3>() / count;
+        let center = points.iter().sum::<Vec3>() / count;
         let radius_sq = points
             .iter()
-            .map(|p| (p - centre).norm_squared())
+            .map(|p| (p - center).norm_squared())
             .fold(0.0, f64::max);
         Self {
-            centre,
+            center,
             count,
-            // A run is at least as large as an edge: neighbours, which do not repel each other, are near.
+            // The radius counts as at least 1. So the run of a vertex's neighbors, which do not repel it, is never far.
             far_sq: FAR * FAR * radius_sq.max(1.0),
         }
     }
 }
 
-/// Replaces the vectors `f` on the vertices of a cycle by the solution of `(1 + strength L) x = f`, with `L` the
-/// second differences along the cycle. O(m).
+/// Smooths the vectors `f` on the vertices of a cycle: replaces them by the solution of `(1 + strength L) x = f`, where
+/// `L` is the graph Laplacian of the cycle. O(m).
 fn smooth(f: &mut [Vec3], strength: f64) {
-    // The cycle is cut open: the matrix is tridiagonal plus a product of two vectors that are zero but at the
-    // ends (Sherman and Morrison).
+    // The matrix is tridiagonal plus a matrix of rank one for the corners, which the Sherman-Morrison formula treats.
     let m = f.len();
     let (side, middle) = (-strength, 1.0 + 2.0 * strength);
     let corner = -middle;
@@ -303,8 +306,8 @@ mod tests {
             let mut x = given.clone();
             smooth(&mut x, strength);
             for i in 0..m {
-                let neighbours = x[(i + 1) % m] + x[(i + m - 1) % m];
-                let image = x[i] + (x[i] * 2.0 - neighbours) * strength;
+                let neighbors = x[(i + 1) % m] + x[(i + m - 1) % m];
+                let image = x[i] + (x[i] * 2.0 - neighbors) * strength;
                 assert!(
                     (image - given[i]).norm() < 1e-9 * strength.max(1.0),
                     "{m} {i}"

@@ -1,24 +1,25 @@
-//! The distances between the segments of a closed polygon in space, on which the freedom from crossings rests.
+//! The distances between the segments of a closed polygon in space. They bound the steps of an unfolding.
 //!
-//! Based on: A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular meshes by
-//! curve unfolding", SMI 2009, section 3.1 (d_MD); the distance of two segments as C. Ericson, "Real-time
-//! collision detection", Morgan Kaufmann, 2005, section 5.1.9.
+//! Segments are sorted along the longest axis of the polygon's bounding box. Each one is compared with those whose
+//! boxes are near. Segments that share a vertex are not compared, because their distance is zero. They cannot overlap
+//! unnoticed: before that, the far vertex of one would meet the other, and that vertex belongs to a segment that is
+//! compared.
 //!
-//! Segments that share a vertex are left out, their distance is zero. That loses nothing: when one of them
-//! comes to lie on the other, its far vertex does, and with it the segment beyond, which is not left out.
+//! Sources: A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular meshes by
+//! curve unfolding", SMI 2009, section 3.1 (d_MD); C. Ericson, "Real-time collision detection", Morgan Kaufmann, 2005,
+//! section 5.1.9, for the distance of two segments.
 //!
-//! Segments are sorted along the axis in which the polygon is longest, and each is compared with those whose
-//! boxes are near: O(m log m) and the number of such pairs, m² at worst.
+//! Cost: O(m log m + k) for `m` segments and `k` near pairs; `k` can be m².
 
 use crate::math::Vec3;
 use crate::math::aabb::Aabb;
 
-/// Finds near segments of a closed polygon; keeps its memory between calls.
+/// Finds near segments of a closed polygon. It keeps its buffers between calls.
 #[derive(Default)]
 pub(super) struct SegmentDistances {
     boxes: Vec<Aabb>,
-    /// Segments by the lower end of their boxes along the sweep's axis. Points that moved little leave it
-    /// nearly sorted for the next call.
+    /// Segments, sorted by the lower ends of their boxes along the longest axis. If points move little, the order is
+    /// nearly right for the next call.
     order: Vec<u32>,
 }
 
@@ -31,7 +32,7 @@ impl SegmentDistances {
         if m < 4 {
             return f64::INFINITY;
         }
-        // The segment after the next is nearly always close: it bounds the search from the start.
+        // The segment after the next is nearly always near, so its distance is a good first bound.
         let start = (0..m)
             .map(|i| nearest(points, i, (i + 2) % m).distance())
             .fold(f64::INFINITY, f64::min);
@@ -43,9 +44,9 @@ impl SegmentDistances {
         smallest
     }
 
-    /// For each vertex the smallest distance of its two segments to all others that share no vertex with the
-    /// segment, at most `reach`; and the pairs of segments that are nearer than `contact_reach`, which is at most
-    /// `reach`.
+    /// Computes, for each vertex, the smallest distance between its two segments and all segments that share no
+    /// vertex with them, at most `reach`. Also lists the pairs of segments whose distance is below `contact_reach`,
+    /// which is at most `reach`.
     pub(super) fn at_vertices(
         &mut self,
         points: &[Vec3],
@@ -73,8 +74,8 @@ impl SegmentDistances {
         });
     }
 
-    /// Calls `visit` with every two segments, not neighbours, whose boxes are less than `reach` apart in each
-    /// coordinate; it returns the reach for the rest of the search.
+    /// Calls `visit` with each pair of segments that are not neighbors and whose boxes are less than `reach` apart in
+    /// each coordinate. `visit` returns the reach for the rest of the search.
     fn visit_near(
         &mut self,
         points: &[Vec3],
@@ -117,8 +118,8 @@ impl SegmentDistances {
     }
 }
 
-/// The way from the place `y` of the second of two segments to the place `x` of the first, where they are
-/// nearest; places run from 0 to 1 along a segment.
+/// The nearest points of two segments: at the share `x` of the first and at the share `y` of the second. `way` is the
+/// vector from the second point to the first.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NearestSegment {
     pub(super) x: f64,
@@ -139,14 +140,14 @@ pub(super) struct Contact {
     pub(super) nearest: NearestSegment,
 }
 
-/// What [`SegmentDistances::at_vertices`] finds.
+/// The result of [`SegmentDistances::at_vertices`].
 #[derive(Default)]
 pub(super) struct Clearances {
     pub(super) distances: Vec<f64>,
     pub(super) contacts: Vec<Contact>,
 }
 
-/// Where segment `i` of the closed polygon is nearest to segment `j`.
+/// The nearest points of the segments `i` and `j` of the closed polygon.
 fn nearest(points: &[Vec3], i: usize, j: usize) -> NearestSegment {
     let m = points.len();
     let (p, q) = (&points[i], &points[(i + 1) % m]);
@@ -161,11 +162,12 @@ fn nearest(points: &[Vec3], i: usize, j: usize) -> NearestSegment {
             0.0
         }
     };
-    // The nearest place of the first line to the second, then of the second segment to that place, then back.
+    // The point of the first segment nearest to the second line, the point of the second segment nearest to it, and the
+    // point of the first segment nearest to that one.
     let x = share(de * ew - ee * dw, dd * ee - de * de);
     let y = share(de * x + ew, ee);
     let x = share(de * y - dw, dd);
-    // Of segments that are almost parallel the first x is rounding: there one of the ends is nearest.
+    // For nearly parallel segments the first `x` is only rounding error, but then an end is a nearest point.
     let places = [
         (x, y),
         (0.0, share(ew, ee)),

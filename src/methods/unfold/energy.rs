@@ -1,16 +1,15 @@
-//! How far a closed polygon is from lying in a plane: the energy that the annealing of the paper minimises.
+//! The planarity energy of a closed polygon, which the annealing minimizes. It is zero for a polygon in a plane.
 //!
 //! Based on: A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular meshes by
 //! curve unfolding", SMI 2009, section 3.1 (E_PE, d_PE, n_i).
 
 use crate::math::Vec3;
 
-/// `E_PE`: the sum, over all vertices, of the angle in radians between the planes of the corners there and at the
-/// next vertex, from 0 to π/2 each. O(m).
+/// `E_PE`: the sum of the angles between the planes of successive corners, in radians. Each angle is between 0 and π/2.
+/// O(m).
 ///
-/// It is zero for every planar polygon. With the angle between the normals as vectors, each change between a
-/// convex and a concave corner would cost π in the plane, and concavities would not be kept, as the paper
-/// wants them to be.
+/// The angle is that of planes, not of oriented normals. With oriented normals, each change between a convex and a
+/// concave corner of a planar polygon would cost π, and the polygon would lose its concave corners.
 pub(super) fn planarity(points: &[Vec3]) -> f64 {
     let m = points.len();
     let normal = |i: usize| {

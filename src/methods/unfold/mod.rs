@@ -1,8 +1,14 @@
-//! Fills a hole by unfolding its rim: triangulated in the plane, embedded, refined, and shaped by an energy.
+//! The methods `unfold-area` and `unfold-fairing`: unfold the rim to the plane, triangulate it there, refine and fair.
 //!
-//! Based on: A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular meshes by
-//! curve unfolding", SMI 2009, sections 3.2 and 3.3. Unlike there, refinement works on the embedded patch and
-//! again on its final shape, and both energies are minimised exactly, by one sparse system each.
+//! The rim is deformed to a simple polygon in the plane, without crossing itself. The constrained Delaunay
+//! triangulation of this polygon gives triangles between the rim vertices in space. This patch is refined and faired
+//! in turn.
+//!
+//! Source: A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular meshes by
+//! curve unfolding", SMI 2009, sections 3.2 and 3.3. Two differences: the patch is refined in space, and again on its
+//! final shape; and both energies are minimized exactly, by one sparse system each.
+//!
+//! Not guaranteed: that every unknotted rim is unfolded.
 
 mod annealing;
 pub(crate) mod curve;
@@ -16,7 +22,7 @@ use super::method::Method;
 use super::spec::MethodSpec;
 use super::start::{refine, sizes_at_rim};
 use super::task::Task;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::fair::kharmonic::{Order, fair};
 use crate::fair::laplacian::Weights;
 use crate::math::Vec3;
@@ -27,7 +33,7 @@ use crate::patch::mesh::PatchMesh;
 use crate::triangulate::planar::triangulate_planar_region;
 use curve::unfold;
 
-/// Least area. Where every umbrella vector is zero, E_AREA is least.
+/// Least area: minimizes E_AREA, by making all umbrella vectors zero.
 pub(super) const UNFOLD_AREA: MethodSpec = MethodSpec {
     name: "unfold-area",
     falls_back_to: &[Method::Membrane, Method::Flat],
@@ -36,7 +42,7 @@ pub(super) const UNFOLD_AREA: MethodSpec = MethodSpec {
     ..MethodSpec::USUAL
 };
 
-/// The second-order umbrella. Where every such vector is zero, E_DF is least.
+/// Fairing: minimizes E_DF, by making all second-order umbrella vectors zero.
 pub(super) const UNFOLD_FAIRING: MethodSpec = MethodSpec {
     name: "unfold-fairing",
     falls_back_to: &[
@@ -50,19 +56,18 @@ pub(super) const UNFOLD_FAIRING: MethodSpec = MethodSpec {
     ..MethodSpec::USUAL
 };
 
-/// Times that a patch is refined and shaped again because its shape made edges too long. Each time fewer are;
-/// what is left after the last is not far over the length at which edges are split.
+/// Upper bound on the rounds of refining and fairing. Fairing can make edges too long again, but fewer in each round.
 const ROUNDS: usize = 4;
 
-/// Relaxations of the patch before it gets its shape: more than the staircase needs, for the triangles of the
-/// plane may be far from what suits the rim in space.
+/// Relaxations after each refinement. There are more than in other methods, because triangles that are regular in the
+/// plane can be irregular in space.
 const RELAXATIONS: usize = 5;
 
-/// The embedded patch, refined and shaped.
+/// The embedded patch, refined and faired.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidInput`] for a rim with islands, [`ErrorKind::Knotted`] for one that was not unfolded;
-/// those of triangulation, refinement and fairing; [`ErrorKind::Cancelled`].
+/// [`crate::ErrorKind::InvalidInput`] for a rim with islands, [`crate::ErrorKind::Knotted`] for one that was not unfolded;
+/// those of triangulation, refinement and fairing; [`crate::ErrorKind::Cancelled`].
 fn shaped(task: &Task<'_>, order: Order, weights: Weights) -> Result<PatchSurface> {
     let mut surface = task.once(|| Embedded(embed(task))).0?;
     let mut sizes = sizes_at_rim(task, &surface)?;
@@ -78,30 +83,29 @@ fn shaped(task: &Task<'_>, order: Order, weights: Weights) -> Result<PatchSurfac
     Ok(surface)
 }
 
-/// The rim with the triangles that its unfolding has in the plane, and their chords that the mesh has as edges
-/// split in the middle.
+/// The rim in space with the triangles of its unfolding. Chords that are edges of the mesh already are split in the
+/// middle.
 #[derive(Clone)]
 struct Embedded(Result<PatchSurface>);
 
 fn embed(task: &Task<'_>) -> Result<PatchSurface> {
     let hole = task.hole;
-    if hole.polygon.len() != hole.points.len() {
-        return Err(Error::new(
-            ErrorKind::InvalidInput,
+    if hole.polygon.len() != hole.rim().len() {
+        return Err(Error::invalid(
             "a rim with islands is not one curve that could be unfolded",
         ));
     }
     let curve: Vec<Vec3> = hole
         .polygon
         .iter()
-        .map(|&v| hole.points[v as usize])
+        .map(|&v| hole.rim()[v as usize])
         .collect();
     let options = task.options;
     let unfolding = unfold(&curve, &options.methods.unfold, options.seed, task.job)?;
     let triangles = triangulate_planar_region(&[&unfolding.polygon], &[], task.job)?;
     let mut surface = PatchSurface {
-        rim_count: hole.points.len(),
-        points: hole.points.clone(),
+        rim_count: hole.rim().len(),
+        points: hole.rim().to_vec(),
         triangles: triangles
             .iter()
             .map(|t| t.map(|position| hole.polygon[position as usize]))

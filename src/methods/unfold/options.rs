@@ -1,15 +1,16 @@
-//! Options of the unfolding.
+//! The options of the unfolding.
 
 use crate::options::entry::{choice, options};
 
 /// How a curve is unfolded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum UnfoldSolver {
-    /// The vertices repel each other, the edges keep their lengths. Projected before and after each step, and
-    /// done with the first projection that is simple.
+    /// The vertices repel each other, and the edges keep their lengths. The curve is projected to a plane before the
+    /// first step and after each step, until the projection is simple.
     #[default]
     Descent,
-    /// Simulated annealing of the planarity of successive vertices, projected after each run: as published.
+    /// Simulated annealing of the planarity of successive vertices, as published. The curve is projected after each
+    /// run.
     Annealing,
 }
 

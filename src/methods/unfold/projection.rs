@@ -1,11 +1,11 @@
-//! The last step of an unfolding: the polygon laid onto a plane, if that makes no two of its points meet.
+//! The last step of an unfolding: projects the polygon to its least squares plane, if the result is simple.
 //!
-//! Based on: A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular meshes by
-//! curve unfolding", SMI 2009, section 3.1.
+//! The projection is a motion without crossings if the result is simple. Think of the heights above the plane as
+//! multiplied by 1 - t, with t from 0 to 1. For t < 1 this is an affine map of space with an inverse, so no two points
+//! meet. At t = 1, exact predicates decide whether the polygon is simple.
 //!
-//! The motion is linear: a vertex with the height h above the plane has (1 - t) h at time t. For t < 1 that is
-//! an affine map of the whole polygon, which never makes two points one. So the motion is free of crossings
-//! just when its end is, that is when the projected polygon is simple; this is decided by exact predicates.
+//! Source: A. Brunton, S. Wuhrer, C. Shu, P. Bose, E. D. Demaine, "Filling holes in triangular meshes by
+//! curve unfolding", SMI 2009, section 3.1. Cost: that of finding contacts, O(m log m) for most polygons.
 
 use crate::error::Result;
 use crate::job::Job;
@@ -13,10 +13,10 @@ use crate::math::Vec3;
 use crate::math::plane::principal_axes;
 use crate::triangulate::simple_polygon::{Point2, find_contact};
 
-/// The polygon projected onto its plane of least squares, if it is simple there.
+/// The polygon projected to its least squares plane; `None` if it is not simple there.
 ///
 /// # Errors
-/// `Cancelled` when the job is stopped.
+/// `Cancelled` when the job is cancelled.
 pub(super) fn onto_best_plane(points: &[Vec3], job: &Job<'_>) -> Result<Option<Vec<Point2>>> {
     let (centroid, [x, y, _]) = principal_axes(points);
     let flat: Vec<Point2> = points

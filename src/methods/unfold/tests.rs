@@ -1,4 +1,4 @@
-//! Curves whose knot is known.
+//! Tests: unfolds curves whose knot type is known.
 
 use super::super::distance::Clearances;
 use super::super::energy::planarity;
@@ -7,7 +7,7 @@ use crate::job::Job;
 use rand::RngExt;
 use std::f64::consts::TAU;
 
-/// Distance that a tangle keeps from itself: a curve with as little room as rounding leaves could not move.
+/// Lower bound on the distance of a tangled curve from itself. A curve with much less room could not move.
 const KEPT: f64 = 0.2;
 
 fn circle(m: usize) -> Vec<Vec3> {
@@ -32,7 +32,7 @@ fn trefoil(m: usize) -> Vec<Vec3> {
         .collect()
 }
 
-/// A circle deformed by random smooth motions towards a small ball, none of which lets it cross itself.
+/// A circle, deformed by random smooth motions toward a small ball. It never crosses itself, so it is not knotted.
 fn tangle(m: usize, motions: usize, seed: u64) -> Vec<Vec3> {
     let mut points = circle(m);
     let mut generator = seeded(seed, 99);
@@ -82,8 +82,8 @@ fn strip(m: usize, turns: f64) -> Vec<Vec3> {
         .collect()
 }
 
-/// The distance of two segments by a method of its own: that of a point of the first to the second is a convex
-/// function of the place, minimised by golden sections.
+/// The distance of two segments by an independent method: golden-section search over the points of the first segment.
+/// The distance to the second segment is a convex function of the point.
 fn distance_slow(points: &[Vec3], i: usize, j: usize) -> f64 {
     let m = points.len();
     let (p, q, r, s) = (
@@ -110,7 +110,7 @@ fn distance_slow(points: &[Vec3], i: usize, j: usize) -> f64 {
     from(low).min(from(0.0)).min(from(1.0))
 }
 
-/// The smallest distance of segment `i` to those that it shares no vertex with.
+/// The smallest distance of segment `i` from the segments that share no vertex with it.
 fn clearance_slow(points: &[Vec3], i: usize) -> f64 {
     let m = points.len();
     (0..m)

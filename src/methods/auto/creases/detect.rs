@@ -1,50 +1,51 @@
-//! Which smooth pieces of the known surface surround a hole, and where the creases between them meet its rim.
+//! Finds the smooth regions of the mesh round a hole, and the rim vertices where the creases between them end.
 //!
-//! Two neighbouring triangles belong to one region when the angle between their normals is small; regions are the
-//! connected sets of such triangles. Small means below an angle that no finely triangulated smooth surface shows,
-//! and below a multiple of what is usual round this hole: coarse or noisy surfaces have no creases but those that
-//! stand out. What is left of a crease after that must look like one: regions of some size on both sides, a line
-//! that does not zigzag, bent to the same side all along.
+//! Two triangles with a common edge belong to one region if the angle between their filtered normals is below a
+//! threshold; regions are the connected sets of such triangles. The threshold is the larger of a fixed angle and a
+//! multiple of the angles that are usual round this hole. So coarse or noisy surfaces have only creases that stand out.
+//! Regions that are too small join a neighbor. A crease must not zigzag, and must be convex or concave over most of its
+//! length.
 //!
-//! A crease that fades out, or that has a gap, separates nothing, and the hole counts as smooth.
-//!
-//! `O(n log n)` for `n` known triangles.
+//! Cost: `O(n log n)` for `n` known triangles. Not guaranteed: a crease that fades out or has a gap separates no
+//! regions, and is not found.
 
 use super::facets::{Facets, SharedEdge};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::math::{Vec3, unit};
-use crate::patch::HoleShape;
 
-/// Smallest angle of a crease, in radians.
+/// Lower bound on the angle of a crease, in radians. Finely triangulated smooth surfaces stay below it.
 const LEAST_ANGLE: f64 = 35.0 / 180.0 * std::f64::consts::PI;
 
-/// A crease stands out against this quantile of all angles by this factor.
+/// The quantile of all angles that counts as usual round the hole.
 const USUAL_QUANTILE: f64 = 0.8;
+/// Lower bound on the angle of a crease, divided by the usual angle.
 const STAND_OUT: f64 = 2.5;
 
-/// Triangles that the regions are made of: those of this many rings.
+/// Rings of triangles that regions are made of.
 const RINGS: u32 = 5;
 
-/// Regions with fewer triangles or fewer rim edges are bumps or noise.
+/// Lower bounds on the triangles and the rim edges of a region. Smaller regions are bumps or noise.
 const FEWEST_FACES: usize = 4;
 const FEWEST_RIM_EDGES: usize = 2;
 
-/// Every second vertex of a crease, joined, over its length: 0.5 would be a zigzag that goes back and forth. The
-/// edges of triangles across a crease that nobody meshed make 0.87.
+/// Lower bound on the length of the line through every second vertex of a crease, divided by the length through all
+/// vertices. A straight crease has 1. A crease that the mesh does not follow with its edges zigzags across equilateral
+/// triangles and has 0.87.
 const STRAIGHTEST_SHARE: f64 = 0.93;
 
-/// Share of the length of a crease that must be bent to the same side.
+/// Lower bound on the share of a crease's length that is convex, or the share that is concave.
 const SAME_BEND: f64 = 0.8;
 
 /// The regions round a hole.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Regions {
-    /// The known triangles of each region, ascending.
+    /// The known triangles of each region, in ascending order.
     pub(crate) faces: Vec<Vec<u32>>,
-    /// Region at each edge of the hole's polygon.
+    /// The region at each edge of the hole's polygon.
     pub(crate) at_rim: Vec<u32>,
-    /// Where creases end at the rim, in the order of the polygon.
+    /// The ends of creases at the rim, in the order of the polygon.
     pub(crate) ends: Vec<CreaseEnd>,
 }
 
@@ -57,14 +58,14 @@ pub(crate) struct CreaseEnd {
     pub(crate) outward: Vec3,
 }
 
-/// Finds the regions round the hole; `None` when nothing but smooth surface surrounds it.
+/// Finds the regions round the hole; `None` when there is only one.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] when there are creases that cannot be used, with the reason; [`ErrorKind::Cancelled`].
-pub(crate) fn detect(hole: &HoleShape, job: &Job<'_>) -> Result<Option<Regions>> {
+/// [`crate::ErrorKind::Geometry`] when there are creases that cannot be used, with the reason; [`crate::ErrorKind::Cancelled`].
+pub(crate) fn detect(hole: &Hole, job: &Job<'_>) -> Result<Option<Regions>> {
     job.ask()?;
     let mut facets = Facets::new(hole);
-    // Filtering averages: no two of these will ever make the angle of a crease.
+    // Filtering averages normals. So the angle between two of these will not reach that of a crease.
     if facets.turn_less_than(LEAST_ANGLE / 2.0) {
         return Ok(None);
     }
@@ -81,8 +82,8 @@ pub(crate) fn detect(hole: &HoleShape, job: &Job<'_>) -> Result<Option<Regions>>
         return Ok(None);
     }
     let known: Option<Vec<u32>> = at_rim.into_iter().collect();
-    let Some(at_rim) = known.filter(|_| hole.polygon.len() == hole.points.len()) else {
-        return unusable("the rim has islands or triangles without a neighbour");
+    let Some(at_rim) = known.filter(|_| hole.polygon.len() == hole.rim().len()) else {
+        return unusable("the rim has islands, or edges without a triangle");
     };
     labels.join_across_wedges(&facets, hole, &at_rim, threshold);
     let at_rim: Vec<u32> = at_rim.iter().map(|&f| labels.of_face[f as usize]).collect();
@@ -102,10 +103,10 @@ pub(crate) fn detect(hole: &HoleShape, job: &Job<'_>) -> Result<Option<Regions>>
 }
 
 fn unusable<T>(reason: &str) -> Result<T> {
-    Err(Error::new(ErrorKind::Geometry, reason.to_owned()))
+    Err(Error::geometry(reason.to_owned()))
 }
 
-/// The angle from which on an edge is a crease.
+/// The angle above which an edge lies on a crease, in radians.
 fn threshold(facets: &Facets<'_>) -> f64 {
     let mut angles: Vec<f64> = facets.edges.iter().map(|e| facets.angle(e)).collect();
     let at = (USUAL_QUANTILE * angles.len() as f64) as usize;
@@ -117,11 +118,11 @@ fn threshold(facets: &Facets<'_>) -> f64 {
     LEAST_ANGLE.max(STAND_OUT * usual)
 }
 
-/// The known triangle at each edge of the polygon.
-fn rim_faces(hole: &HoleShape) -> Vec<Option<u32>> {
+/// The known triangle at each edge of the polygon, if it has one.
+fn rim_faces(hole: &Hole) -> Vec<Option<u32>> {
     let mut halfedges: Vec<(u32, u32, u32)> = Vec::new();
-    let rim = hole.points.len() as u32;
-    for (f, t) in (0..).zip(&hole.surroundings.triangles) {
+    let rim = hole.rim().len() as u32;
+    for (f, t) in (0..).zip(hole.surroundings.triangles()) {
         for k in 0..3 {
             let (a, b) = (t[k], t[(k + 1) % 3]);
             if a < rim && b < rim {
@@ -133,7 +134,7 @@ fn rim_faces(hole: &HoleShape) -> Vec<Option<u32>> {
     let len = hole.polygon.len();
     (0..len)
         .map(|i| {
-            // The known triangle runs along the edge the other way round.
+            // The known triangle has the edge in the opposite direction.
             let (a, b) = (hole.polygon[(i + 1) % len], hole.polygon[i]);
             let at = halfedges.binary_search_by_key(&(a, b), |&(a, b, _)| (a, b));
             at.ok().map(|at| halfedges[at].2)
@@ -141,13 +142,14 @@ fn rim_faces(hole: &HoleShape) -> Vec<Option<u32>> {
         .collect()
 }
 
-/// A region's number for each triangle.
+/// The partition of the known triangles into regions. While triangles are joined it is a forest of parents; after that
+/// each triangle has the label of its region, which is one of the region's triangles.
 struct Labels {
     of_face: Vec<u32>,
 }
 
 impl Labels {
-    /// Connects triangles over edges with an angle below `threshold`.
+    /// Joins triangles across edges with an angle below `threshold`.
     fn new(facets: &Facets<'_>, threshold: f64) -> Self {
         let count = facets.triangles().len();
         let mut labels = Self {
@@ -190,12 +192,12 @@ impl Labels {
         labels.len()
     }
 
-    /// Joins regions that meet in a vertex of the rim, with the tip of a third one between them, and are not bent
-    /// against each other there: they continue each other inside the hole.
+    /// Joins two regions that meet only in a rim vertex, because the tip of a third region lies between them there, if
+    /// the angle between them is below the threshold. They continue each other inside the hole.
     fn join_across_wedges(
         &mut self,
         facets: &Facets<'_>,
-        hole: &HoleShape,
+        hole: &Hole,
         at_rim: &[u32],
         threshold: f64,
     ) {
@@ -222,7 +224,7 @@ impl Labels {
         }
     }
 
-    /// Joins regions at the rim that are too small to be one with the neighbour that they are bent least against.
+    /// Joins each region at the rim that is too small with the neighbor across the edge of smallest angle.
     fn absorb_small_regions(&mut self, facets: &Facets<'_>, at_rim: &[Option<u32>]) {
         // Each round removes a region.
         for _ in 0..at_rim.len() {
@@ -248,12 +250,11 @@ impl Labels {
                 return;
             };
             self.rename(small, other);
-            // Regions are named by any of their triangles from here on.
         }
     }
 }
 
-/// The edges between two regions that begin at a rim vertex.
+/// A chain of edges between two regions, from a rim vertex outward.
 struct Crease {
     points: Vec<Vec3>,
     /// Length of each edge, and whether the surface is convex there.
@@ -291,11 +292,11 @@ impl Crease {
     fn check(&self) -> Result<()> {
         let total: f64 = self.bends.iter().map(|b| b.0).sum();
         if self.bends.is_empty() || total <= 0.0 {
-            return unusable("a crease ends at the rim");
+            return unusable("a crease has no edge behind the rim");
         }
         let convex: f64 = self.bends.iter().filter(|b| b.1).map(|b| b.0).sum();
         if convex.max(total - convex) < SAME_BEND * total {
-            return unusable("a crease bends to both sides");
+            return unusable("a crease is convex in one part and concave in another");
         }
         let (mut straight, mut along) = (0.0, 0.0);
         for p in self.points.windows(3) {
@@ -303,13 +304,13 @@ impl Crease {
             along += (p[2] - p[1]).norm() + (p[1] - p[0]).norm();
         }
         if straight < STRAIGHTEST_SHARE * along {
-            return unusable("a crease zigzags");
+            return unusable("a crease zigzags: the edges of the mesh do not follow it");
         }
         Ok(())
     }
 }
 
-/// Numbers the regions that touch the rim in the order in which the polygon meets them.
+/// Numbers the regions that touch the rim, in order along the polygon, and lists their triangles.
 fn collect(
     facets: &Facets<'_>,
     labels: &Labels,

@@ -1,23 +1,27 @@
-//! The known triangles round a hole: who meets whom in which edge, and normals from which noise is filtered.
+//! The known triangles round a hole, with their shared edges and with normals from which noise is filtered.
 //!
-//! Normals are filtered by Y. Zheng, H. Fu, O. K.-C. Au, C.-L. Tai, "Bilateral normal filtering for mesh
-//! denoising", IEEE TVCG 17(10), 2011 (the local, iterative scheme), which averages them over neighbours whose
-//! normals are alike and so keeps creases. The width of "alike" follows from the normals themselves: a clean mesh is
-//! left as it is.
+//! Filter: Y. Zheng, H. Fu, O. K.-C. Au, C.-L. Tai, "Bilateral normal filtering for mesh denoising", IEEE TVCG
+//! 17(10), 2011, the local, iterative scheme. A normal becomes a mean over triangles that share a vertex. Similar
+//! normals count more, so creases stay. The width of the filter is a multiple of the median difference between
+//! neighbors; where that is zero, as on a plane, nothing is filtered.
+//!
+//! Cost: `O(n log n)` for `n` triangles, for sorting the edges.
 
 use crate::error::Result;
+use crate::hole::Hole;
 use crate::job::Job;
+use crate::math::adjacency::CompressedRows;
 use crate::math::{Vec3, cross_normal, unit};
-use crate::mesh::connectivity::{BOUNDARY, NON_MANIFOLD, origin, target};
+use crate::mesh::halfedge::{BOUNDARY, NON_MANIFOLD, origin, target};
 use crate::mesh::pairing::pair_halfedges;
-use crate::patch::HoleShape;
 
 /// Rounds of filtering.
 const ROUNDS: usize = 6;
 
-/// Width of the filter in units of the median difference between the normals of neighbours, and at most: beyond
-/// that it would average over creases.
+/// Width of the filter, in units of the median length of the difference between the normals of neighbors.
 const WIDTH_FACTOR: f64 = 2.0;
+/// Upper bound on the width of the filter, as the length of a difference of unit normals. A wider filter would average
+/// across creases.
 const MOST_WIDTH: f64 = 0.35;
 
 /// An edge between two known triangles.
@@ -31,24 +35,24 @@ pub(super) struct SharedEdge {
 
 /// The known triangles with their normals and common edges.
 pub(super) struct Facets<'a> {
-    hole: &'a HoleShape,
+    hole: &'a Hole,
     /// Unit normals; zero for triangles without area.
     pub(super) normals: Vec<Vec3>,
     areas: Vec<f64>,
-    /// Edges with exactly two triangles that run along them in opposite directions, sorted by vertices; none before
+    /// Edges with exactly two triangles that have them in opposite directions, sorted by vertices. Empty before
     /// [`find_edges`](Self::find_edges).
     pub(super) edges: Vec<SharedEdge>,
 }
 
 impl<'a> Facets<'a> {
-    pub(super) fn new(hole: &'a HoleShape) -> Self {
+    pub(super) fn new(hole: &'a Hole) -> Self {
         let mut facets = Self {
             hole,
             normals: Vec::new(),
             areas: Vec::new(),
             edges: Vec::new(),
         };
-        for t in &hole.surroundings.triangles {
+        for t in hole.surroundings.triangles() {
             let [a, b, c] = t.map(|v| facets.point(v));
             let normal = cross_normal(&a, &b, &c);
             facets.normals.push(unit(normal));
@@ -57,53 +61,45 @@ impl<'a> Facets<'a> {
         facets
     }
 
-    /// Whether all normals make less than the angle, in radians, with their mean.
+    /// Whether the angle between each normal and their mean is below `angle`, in radians.
     pub(super) fn turn_less_than(&self, angle: f64) -> bool {
         let mean = unit(self.normals.iter().sum());
         let least = angle.cos();
         self.normals.iter().all(|n| n.dot(&mean) > least)
     }
 
-    /// Finds out which triangles meet in which edge.
+    /// Finds the edges that triangles share.
     ///
     /// # Errors
-    /// `Cancelled` when the job is stopped.
+    /// `Cancelled` when the job is cancelled.
     pub(super) fn find_edges(&mut self, job: &Job<'_>) -> Result<()> {
-        let vertex_count = self.hole.points.len() + self.hole.surroundings.points.len();
+        let vertex_count = self.hole.surroundings.points().len();
         self.edges = shared_edges(self.triangles(), vertex_count, job)?;
         Ok(())
     }
 
     pub(super) fn triangles(&self) -> &[[u32; 3]] {
-        &self.hole.surroundings.triangles
+        self.hole.surroundings.triangles()
     }
 
     /// The position of a vertex of the rim or of the surroundings.
     pub(super) fn point(&self, v: u32) -> Vec3 {
-        let rim = &self.hole.points;
-        match (v as usize).checked_sub(rim.len()) {
-            None => rim[v as usize],
-            Some(outer) => self.hole.surroundings.points[outer],
-        }
+        self.hole.surroundings.point(v)
     }
 
     /// The ring that a triangle belongs to: the lowest level of its vertices.
     pub(super) fn ring(&self, face: usize) -> u32 {
-        let rim = self.hole.points.len();
-        let level = |v: u32| match (v as usize).checked_sub(rim) {
-            None => 0,
-            Some(outer) => self.hole.surroundings.levels[outer],
-        };
+        let level = |v: u32| self.hole.surroundings.levels()[v as usize];
         let [a, b, c] = self.triangles()[face].map(level);
         a.min(b).min(c)
     }
 
-    /// The angle between two triangles in radians, as their present normals see it.
+    /// The angle between the present normals of the edge's triangles, in radians.
     pub(super) fn angle(&self, edge: &SharedEdge) -> f64 {
         self.angle_between(edge.faces)
     }
 
-    /// The same for triangles that need not be neighbours.
+    /// The same for any two triangles.
     pub(super) fn angle_between(&self, faces: [u32; 2]) -> f64 {
         let [n, m] = faces.map(|f| self.normals[f as usize]);
         2.0 * (0.5 * (n - m).norm()).min(1.0).asin()
@@ -119,7 +115,7 @@ impl<'a> Facets<'a> {
     /// Filters noise from the normals.
     ///
     /// # Errors
-    /// `Cancelled` when the job is stopped.
+    /// `Cancelled` when the job is cancelled.
     pub(super) fn filter_normals(&mut self, job: &Job<'_>) -> Result<()> {
         job.ask()?;
         let mut differences: Vec<f64> = self
@@ -156,19 +152,18 @@ impl<'a> Facets<'a> {
 
     /// The triangles that share a vertex with each triangle.
     fn neighbors(&self, job: &Job<'_>) -> Result<Vec<Vec<u32>>> {
-        let count = self.hole.points.len() + self.hole.surroundings.points.len();
-        let mut at_vertex: Vec<Vec<u32>> = vec![Vec::new(); count];
-        for (f, t) in (0_u32..).zip(self.triangles()) {
-            job.tick(10)?;
-            for &v in t {
-                at_vertex[v as usize].push(f);
-            }
+        let count = self.hole.surroundings.points().len();
+        let corners = self.triangles().as_flattened();
+        let mut at_vertex = CompressedRows::with_room(count, corners.iter().copied(), 0);
+        for (corner, &v) in (0_u32..).zip(corners) {
+            job.tick(3)?;
+            at_vertex.push(v, corner / 3);
         }
         let around = |(f, t): (u32, &[u32; 3])| {
             job.tick(10)?;
             let mut near: Vec<u32> = t
                 .iter()
-                .flat_map(|&v| at_vertex[v as usize].iter().copied())
+                .flat_map(|&v| at_vertex.of(v).iter().copied())
                 .filter(|&g| g != f)
                 .collect();
             near.sort_unstable();

@@ -1,37 +1,40 @@
-//! Curves in which two implicit surfaces meet, and points in which three do, by Newton's method.
+//! Finds the curve in which two implicit surfaces meet, and the point in which three meet, by Newton's method.
 //!
-//! Two equations for a point in space are solved by the step of least length. A curve is traced from its start in
-//! steps along `∇f × ∇g`, or found from the straight line when there is no direction to start in, and then divided
-//! evenly. Its ends are given, and may lie off the surfaces by as much as these miss the rim: the difference fades
-//! along the curve.
+//! Two surfaces give two equations for a point in space; the shortest of all Newton steps is taken. A curve is traced
+//! from its start in steps along `∇f × ∇g`. If its direction at the start is not known, the straight line between its
+//! ends is projected onto both surfaces instead. The points are then spaced evenly. The ends are given and do not move.
+//! They may lie off the surfaces; their offsets are interpolated linearly along the curve.
+//!
+//! Not guaranteed: that the curve found is the only one, or the shortest.
 
 use crate::math::{Vec3, unit};
 use crate::methods::auto::surface::Implicit;
 use nalgebra::Matrix3;
 
-/// Newton steps for a point; from a few edges away it takes five.
+/// Upper bound on the Newton steps for a point. Five are enough from a few edge lengths away.
 const STEPS: usize = 30;
 
-/// Steps shorter than this part of the longest allowed one end the iteration.
+/// A step shorter than this ends the iteration. Unit: the longest step allowed.
 const SETTLED: f64 = 1e-11;
 
-/// The last step of a point that counts as found, in the same unit.
+/// A point counts as found if its last step is shorter than this. Unit: the longest step allowed.
 const FOUND: f64 = 1e-6;
 
-/// Sine of the angle between two surfaces below which their intersection is ill-determined.
+/// Lower bound on the sine of the angle between two surfaces. Below it, their intersection is ill-conditioned.
 const SMALLEST_SINE: f64 = 0.05;
 
-/// The same for three: the volume that their unit normals span.
+/// Lower bound on the volume that the unit normals of three surfaces span, for the same reason.
 const SMALLEST_VOLUME: f64 = 0.02;
 
-/// A curve longer than this many times the distance of its ends has lost its way; half a circle has 1.57.
+/// Upper bound on the length of a curve, divided by the distance of its ends. A longer one is on a wrong branch. Half a
+/// circle has 1.57.
 const LONGEST_DETOUR: f64 = 3.0;
 
-/// Traces are resampled this many times, until the points are evenly spread.
+/// Rounds of spacing the points of a curve evenly and projecting them.
 const DIVISIONS: usize = 4;
 
-/// The point near `start` where three surfaces meet; no Newton step is longer than `limit`. `None` when there is
-/// none, or it is ill-determined.
+/// The point near `start` where three surfaces meet. No Newton step is longer than `limit`. `None` when the steps do
+/// not converge or the point is ill-conditioned.
 pub(crate) fn corner(surfaces: [&dyn Implicit; 3], start: Vec3, limit: f64) -> Option<Vec3> {
     let mut p = start;
     let mut length = f64::INFINITY;
@@ -59,7 +62,7 @@ fn common_point(surfaces: [&dyn Implicit; 2], start: Vec3, limit: f64) -> Option
         let (a, b, c) = (df.norm_squared(), df.dot(&dg), dg.norm_squared());
         let determinant = a * c - b * b;
         let smallest = SMALLEST_SINE * SMALLEST_SINE * a * c;
-        // Not a number determines nothing.
+        // NaN comes from values that are not finite.
         if determinant.is_nan() || determinant <= smallest {
             return None;
         }
@@ -73,19 +76,19 @@ fn common_point(surfaces: [&dyn Implicit; 2], start: Vec3, limit: f64) -> Option
     (length < FOUND * limit && p.iter().all(|x| x.is_finite())).then_some(p)
 }
 
-/// A curve to find.
+/// The curve in which two surfaces meet, from one given end to the other.
 pub(crate) struct IntersectionCurve<'a> {
     pub(crate) surfaces: [&'a dyn Implicit; 2],
     pub(crate) ends: [Vec3; 2],
-    /// The direction in which it leaves its first end, if known.
+    /// The direction of the curve at its first end, if known.
     pub(crate) departure: Option<Vec3>,
     /// Length of its segments.
     pub(crate) step: f64,
 }
 
 impl IntersectionCurve<'_> {
-    /// The points between the ends, evenly spread; none for ends closer than a segment and a half. `None` when
-    /// the surfaces do not meet in a curve from one end to the other.
+    /// The points between the ends, evenly spaced; an empty list for a curve shorter than one and a half segments.
+    /// `None` when no curve from one end to the other is found.
     pub(crate) fn points(&self) -> Option<Vec<Vec3>> {
         let traced = self.departure.and_then(|direction| self.trace(direction));
         let mut line = traced.unwrap_or_else(|| self.ends.to_vec());
@@ -139,7 +142,7 @@ impl IntersectionCurve<'_> {
         Some(())
     }
 
-    /// Shifts the points by what the ends are off the surfaces.
+    /// Adds the offsets of the ends from the surfaces to the points, interpolated along the curve.
     fn meet_ends(&self, line: &mut [Vec3]) -> Option<()> {
         let limit = (self.ends[1] - self.ends[0]).norm();
         let mut offsets = [Vec3::zeros(); 2];
@@ -159,7 +162,7 @@ fn length(line: &[Vec3]) -> f64 {
     line.windows(2).map(|p| (p[1] - p[0]).norm()).sum()
 }
 
-/// The line cut into `count` parts of one length.
+/// Points that divide the line into `count` parts of equal length, with its ends.
 fn divide(line: &[Vec3], count: usize) -> Vec<Vec3> {
     let part = length(line) / count as f64;
     let mut points = vec![line[0]];

@@ -1,9 +1,14 @@
-//! Continues creases across a hole: cuts it into faces along the curves in which the surfaces of its surroundings
-//! meet, and fills each face like a hole of its own.
+//! Continues creases of the mesh across a hole, so that sharp edges stay sharp.
 //!
-//! A face keeps the vertices of its creases as it keeps those of the rim, so the faces fit together. Creases are used
-//! only where they explain the surroundings better than one smooth surface does: the regions' surfaces must predict
-//! rings that they have not seen better than the best smooth candidate predicts them.
+//! 1. Find the smooth regions round the hole, and where the creases between them meet the rim (`detect`).
+//! 2. Fit one surface to each region (`region`).
+//! 3. Cut the hole into faces along the curves in which these surfaces meet (`partition`).
+//! 4. Fill each face like a hole of its own. The vertices on its creases do not move, so the faces fit together.
+//!
+//! Creases are used only where they explain the surroundings at least as well as one smooth surface does: the score of
+//! the regions in leave-out cross-validation must not be worse than the score of the best smooth candidate.
+//!
+//! Not guaranteed: creases that fade out inside the known mesh are not found.
 
 mod detect;
 mod facets;
@@ -16,24 +21,26 @@ use super::march::Marcher;
 use super::surface::Implicit;
 use super::surface::candidates::Candidate;
 use super::surface::samples::SampledBand;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::fair::kharmonic::Order;
+use crate::hole::Hole;
 use crate::math::{Vec3, unit};
 use crate::mesh::pairing::pair_halfedges;
 use crate::methods::fair::faired;
 use crate::methods::start::refined;
 use crate::methods::task::Task;
-use crate::patch::{HoleShape, PatchSurface, Surroundings};
+use crate::patch::PatchSurface;
 use crate::quality::Surface;
 use crate::quality::self_intersection::{AppendedPatch, count};
 use crate::quality::spatial::FaceIndex;
+use crate::surroundings::Surroundings;
 use detect::{Regions, detect};
 use partition::{Face, Partition, partition};
 use region::{RegionSurface, fit_regions};
 use slide::slide_ends;
 
-/// Cosine of the angle between the known triangle at a rim edge and the face's surface below which the edge lies on
-/// a crease.
+/// A rim edge lies on a crease if the cosine between the normal of its known triangle and the normal of the face's
+/// surface is at most this.
 const SAME_REGION: f64 = 0.8;
 
 /// A patch with creases.
@@ -41,16 +48,16 @@ pub(super) struct CreasePatch {
     pub(super) surface: PatchSurface,
     /// Number of creases in it.
     pub(super) count: usize,
-    /// Surface of each region, in the order in which the rim meets them.
+    /// The candidate of each region, in order along the rim.
     pub(super) surfaces: Vec<Candidate>,
 }
 
-/// What the creases must do better than, and how.
+/// The work on one hole.
 pub(super) struct Creases<'a> {
     pub(super) task: &'a Task<'a>,
     /// Mean edge length at the rim.
     pub(super) step: f64,
-    /// Score of the best smooth candidate.
+    /// Score of the best smooth candidate; the regions must not score worse.
     pub(super) smooth_score: f64,
 }
 
@@ -58,7 +65,7 @@ impl Creases<'_> {
     /// The patch that continues the creases; `None` when there are none.
     ///
     /// # Errors
-    /// Why creases that were found are not used: [`ErrorKind::Geometry`] and those of the steps;
+    /// [`ErrorKind::Geometry`], with the reason, when creases were found that cannot be used; those of the steps;
     /// [`ErrorKind::Cancelled`].
     pub(super) fn patch(&self) -> Result<Option<CreasePatch>> {
         let Some(mut regions) = detect(self.task.hole, self.task.job)? else {
@@ -77,8 +84,8 @@ impl Creases<'_> {
         self.task.job.ask()?;
         let partition = partition(self.task.hole, &regions, &implicit, self.step)?;
         let mut surface = PatchSurface {
-            rim_count: self.task.hole.points.len(),
-            points: self.task.hole.points.clone(),
+            rim_count: self.task.hole.rim().len(),
+            points: self.task.hole.rim().to_vec(),
             triangles: Vec::new(),
         };
         surface.points.extend_from_slice(&partition.points);
@@ -133,7 +140,7 @@ impl Creases<'_> {
         Ok(())
     }
 
-    /// A face as a hole of its own, with the triangles of its region round it.
+    /// A face as a hole of its own. Its surroundings are the triangles of its region.
     fn face_shape(
         &self,
         face: &Face,
@@ -141,9 +148,9 @@ impl Creases<'_> {
         known: &[u32],
         surface: &dyn Implicit,
         patch: &PatchSurface,
-    ) -> HoleShape {
+    ) -> Hole {
         let hole = self.task.hole;
-        let rim_count = hole.points.len();
+        let rim_count = hole.rim().len();
         let boundary = &face.boundary;
         let len = boundary.len();
         let points: Vec<Vec3> = boundary.iter().map(|&v| patch.points[v as usize]).collect();
@@ -167,52 +174,46 @@ impl Creases<'_> {
         };
         let outside_normals = (0..len).map(outside_normal).collect();
         let edge_length = |v: &u32| hole.edge_lengths.get(*v as usize).copied();
-        HoleShape {
+        Hole {
             polygon: (0..len as u32).collect(),
             outside_normals,
             edge_lengths: boundary
                 .iter()
                 .map(|v| edge_length(v).unwrap_or(self.step))
                 .collect(),
-            surroundings: self.surroundings_of(face, known),
+            surroundings: self.surroundings_of(face, &points, known),
+            is_bridge: vec![false; len],
             joined: self.joined_of(face, partition),
-            points,
         }
     }
 
-    /// The known triangles of the face's region, in the numbers of the face.
-    fn surroundings_of(&self, face: &Face, known: &[u32]) -> Surroundings {
+    /// The known triangles of the face's region, with the vertex numbers of the face.
+    fn surroundings_of(&self, face: &Face, rim: &[Vec3], known: &[u32]) -> Surroundings {
         let around = &self.task.hole.surroundings;
-        let rim_count = self.task.hole.points.len();
-        let len = face.boundary.len() as u32;
-        let mut numbers = vec![None; rim_count + around.points.len()];
+        let rim_count = around.rim().len();
+        let mut numbers = vec![None; around.points().len()];
         for (i, &v) in (0..).zip(&face.boundary) {
             if (v as usize) < rim_count {
                 numbers[v as usize] = Some(i);
             }
         }
-        let mut result = Surroundings::default();
-        for &f in known {
-            let triangle = around.triangles[f as usize].map(|v| {
-                *numbers[v as usize].get_or_insert_with(|| {
-                    let (point, level) = match (v as usize).checked_sub(rim_count) {
-                        None => (self.task.hole.points[v as usize], 1),
-                        Some(outer) => (around.points[outer], around.levels[outer]),
-                    };
-                    result.points.push(point);
-                    result.levels.push(level);
-                    len + result.points.len() as u32 - 1
-                })
-            });
-            result.triangles.push(triangle);
-        }
-        result
+        let (mut points, mut levels) = (rim.to_vec(), vec![0; rim.len()]);
+        let mut numbered = |v: u32| {
+            *numbers[v as usize].get_or_insert_with(|| {
+                points.push(around.point(v));
+                levels.push(around.levels()[v as usize].max(1));
+                points.len() as u32 - 1
+            })
+        };
+        let known = known.iter().map(|&f| around.triangles()[f as usize]);
+        let triangles = known.map(|t| t.map(&mut numbered)).collect();
+        Surroundings::new(rim.len(), points, levels, triangles)
     }
 
-    /// Pairs of the face's vertices that must not be joined inside it: those that the mesh joins, and those on
-    /// one crease, which the face on its other side could join as well.
+    /// Pairs of the face's vertices that no edge inside it may join: the mesh has that edge already, or both lie on
+    /// one crease and the face on the other side could make the same edge.
     fn joined_of(&self, face: &Face, partition: &Partition) -> Vec<(u32, u32)> {
-        let rim_count = self.task.hole.points.len() as u32;
+        let rim_count = self.task.hole.rim().len() as u32;
         let len = face.boundary.len() as u32;
         let shares_crease = |a: u32, b: u32| {
             let has_both = |crease: &Vec<u32>| crease.contains(&a) && crease.contains(&b);
@@ -234,21 +235,13 @@ impl Creases<'_> {
     /// Whether the patch intersects itself or the known triangles next to it.
     fn intersects(&self, patch: &PatchSurface) -> Result<bool> {
         let around = &self.task.hole.surroundings;
-        let known: Vec<Vec3> = self
-            .task
-            .hole
-            .points
-            .iter()
-            .chain(&around.points)
-            .copied()
-            .collect();
         let rim_count = patch.rim_count as u32;
-        let shift = around.points.len() as u32;
+        let shift = around.outer().len() as u32;
         let number = |v: u32| if v < rim_count { v } else { v + shift };
         let triangles: Vec<[u32; 3]> = patch.triangles.iter().map(|t| t.map(number)).collect();
         let mesh = Surface {
-            points: &known,
-            triangles: &around.triangles,
+            points: around.points(),
+            triangles: around.triangles(),
         };
         let appended = AppendedPatch {
             points: &patch.points[patch.rim_count..],
@@ -261,11 +254,10 @@ impl Creases<'_> {
 }
 
 fn unusable<T>(reason: &str) -> Result<T> {
-    Err(Error::new(ErrorKind::Geometry, reason.to_owned()))
+    Err(Error::geometry(reason.to_owned()))
 }
 
-/// The geometric mean of the regions' scores, each as often as it has rim edges; zero when no region is large
-/// enough to have one.
+/// The geometric mean of the regions' scores, weighted by their numbers of rim edges; zero when no region has a score.
 fn common_score(regions: &Regions, surfaces: &[RegionSurface]) -> f64 {
     let (mut logarithms, mut count) = (0.0, 0.0);
     for &region in &regions.at_rim {

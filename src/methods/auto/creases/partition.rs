@@ -1,47 +1,48 @@
-//! Cuts a hole along creases into faces, one for each stretch of its rim or more stretches of one region.
+//! Cuts a hole into faces along creases. Each face belongs to one region of the mesh round the hole.
 //!
-//! The rim is a cycle of arcs, each of one region, between the ends of creases. Two moves shorten it:
+//! The ends of creases divide the rim into a cycle of arcs; each arc belongs to one region. Two moves remove an arc:
 //!
-//! * *close* an arc between two arcs of one region, by the crease from one of its ends to the other;
-//! * let the creases at the ends of an arc meet in the *corner* that its region has with its two neighbours, from
-//!   where the crease between these goes on.
+//! * *close*: if the arcs before and after it belong to one region, a crease joins the two ends of the arc;
+//! * *corner*: the creases at the two ends of the arc meet in the point where its region meets the regions before and
+//!   after it. From this corner the crease between these two regions continues.
 //!
-//! Two arcs that are left are separated by one crease. All orders of moves are tried and the one with the shortest
-//! creases is taken whose curves exist. A crease between two corners that coincide has no length: the corners
-//! become one, where four or more regions meet.
+//! When two arcs are left, one crease separates them. All orders of moves are listed. They are tried in ascending order
+//! of the total length of their creases, measured along straight lines, and the first one is taken whose curves exist.
+//! Two corners that coincide are united; there four or more regions meet.
 //!
-//! Exponential in the number of ends, which therefore is limited. Not guaranteed: that the shortest creases are those
-//! that were there.
+//! Cost: exponential in the number of ends, which [`MOST_ENDS`] bounds. Not guaranteed: that the shortest creases are
+//! the original ones.
 
 use super::intersection::{IntersectionCurve, corner};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
+use crate::hole::Hole;
 use crate::math::Vec3;
 use crate::methods::auto::creases::detect::Regions;
 use crate::methods::auto::surface::Implicit;
-use crate::patch::HoleShape;
 
-/// More ends than this are not sorted out.
+/// Upper bound on the number of crease ends. A hole with more is filled as a smooth one.
 const MOST_ENDS: usize = 6;
 
-/// Orders of moves for which curves are computed.
+/// Upper bound on the orders of moves for which curves are computed.
 const MOST_TRIALS: usize = 6;
 
-/// Corners lie within this many diameters of the rim from its middle.
+/// Upper bound on the distance of a corner from the middle of the rim, in diameters of the rim.
 const FARTHEST_CORNER: f64 = 1.0;
 
-/// Corners closer than this, in lengths of crease segments, are one.
+/// Two corners closer than this are united. Unit: the mean edge length at the rim.
 const SAME_CORNER: f64 = 0.5;
 
-/// A corner closer than this to a vertex of the rim would make triangles without area; in the same unit.
+/// Lower bound on the distance between the ends of a crease, in the same unit. A shorter one would make triangles
+/// without area.
 const RIM_DISTANCE: f64 = 0.05;
 
-/// Longest Newton step towards a corner, in diameters of the rim.
+/// Upper bound on a Newton step toward a corner, in diameters of the rim.
 const LONGEST_STEP: f64 = 0.25;
 
 /// A hole cut into faces.
 #[derive(Clone, Debug)]
 pub(crate) struct Partition {
-    /// Vertices of creases and corners inside the hole; they count on from the rim vertices.
+    /// Vertices of creases and corners inside the hole. Their numbers follow those of the rim vertices.
     pub(crate) points: Vec<Vec3>,
     pub(crate) faces: Vec<Face>,
     /// The vertices of each crease, ends included.
@@ -59,9 +60,9 @@ pub(crate) struct Face {
 /// Cuts the hole along the creases in which the `surfaces` of the regions meet.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] when there are too many creases or they do not meet inside the hole.
+/// [`crate::ErrorKind::Geometry`] when there are too many creases or they do not meet inside the hole.
 pub(crate) fn partition(
-    hole: &HoleShape,
+    hole: &Hole,
     regions: &Regions,
     surfaces: &[&dyn Implicit],
     step: f64,
@@ -77,7 +78,7 @@ pub(crate) fn partition(
     };
     let first = regions.ends.iter().map(|end| RimArc {
         region: regions.at_rim[end.position],
-        start: hole.points[hole.polygon[end.position] as usize],
+        start: hole.rim()[hole.polygon[end.position] as usize],
     });
     let mut plans = Vec::new();
     search.extend(
@@ -95,21 +96,21 @@ pub(crate) fn partition(
 }
 
 fn failed<T>(reason: &str) -> Result<T> {
-    Err(Error::new(ErrorKind::Geometry, reason.to_owned()))
+    Err(Error::geometry(reason.to_owned()))
 }
 
 #[derive(Clone, Copy, Debug)]
 enum Move {
-    /// Cuts off the arc at this place in the cycle.
+    /// Close the arc at this place in the cycle.
     Close(usize),
-    /// Ends the arc at this place in a corner.
+    /// End the arc at this place in a corner.
     Corner(usize, Vec3),
 }
 
 #[derive(Clone, Debug, Default)]
 struct PartitionPlan {
     moves: Vec<Move>,
-    /// Of all creases, if they were straight.
+    /// The total length of the creases, as if they were straight.
     length: f64,
 }
 
@@ -122,7 +123,7 @@ impl PartitionPlan {
     }
 }
 
-/// A stretch of one region; it ends where the next one starts.
+/// A part of the cycle that belongs to one region. It ends where the next arc starts.
 #[derive(Clone, Copy)]
 struct RimArc {
     region: u32,
@@ -136,7 +137,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Adds all ways to finish the plan.
+    /// Adds to `plans` all ways to finish the plan.
     fn extend(&self, arcs: &[RimArc], plan: &PartitionPlan, plans: &mut Vec<PartitionPlan>) {
         let len = arcs.len();
         if len < 2 {
@@ -148,7 +149,7 @@ impl Search<'_> {
             plans.push(finished);
             return;
         }
-        // Three arcs meet in one corner, whichever of them is taken first.
+        // Three arcs meet in the same corner, whichever of them is removed first.
         for i in 0..if len == 3 { 1 } else { len } {
             let (before, after) = (arcs[(i + len - 1) % len], arcs[(i + 1) % len]);
             let ends = [arcs[i].start, after.start];
@@ -182,7 +183,7 @@ fn remove_arc_and_next<T>(arcs: &mut Vec<T>, i: usize) {
     arcs.remove(i.min(next));
 }
 
-/// An arc with the vertices from its start to its end.
+/// An arc as a chain of vertices from its start to its end.
 struct CreaseChain {
     region: u32,
     vertices: Vec<u32>,
@@ -190,7 +191,7 @@ struct CreaseChain {
 
 /// Turns a plan into faces.
 struct Builder<'a> {
-    hole: &'a HoleShape,
+    hole: &'a Hole,
     surfaces: &'a [&'a dyn Implicit],
     step: f64,
     /// Direction into the hole at each crease's end, with the vertex.
@@ -200,12 +201,7 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    fn new(
-        hole: &'a HoleShape,
-        regions: &Regions,
-        surfaces: &'a [&'a dyn Implicit],
-        step: f64,
-    ) -> Self {
+    fn new(hole: &'a Hole, regions: &Regions, surfaces: &'a [&'a dyn Implicit], step: f64) -> Self {
         let (polygon, ends) = (&hole.polygon, &regions.ends);
         let chain = |k: usize| {
             let from = ends[k].position;
@@ -316,7 +312,7 @@ impl<'a> Builder<'a> {
     fn crease(&mut self, ends: [u32; 2], regions: [u32; 2]) -> Option<Vec<u32>> {
         let positions = ends.map(|v| self.position(v));
         let distance = (positions[1] - positions[0]).norm();
-        let rim = self.hole.points.len() as u32;
+        let rim = self.hole.rim().len() as u32;
         if ends.iter().all(|&v| v >= rim) && distance < SAME_CORNER * self.step {
             self.unite(ends[0], ends[1]);
             return Some(vec![ends[0]]);
@@ -341,7 +337,7 @@ impl<'a> Builder<'a> {
     }
 
     fn finish(&mut self, region: u32, mut boundary: Vec<u32>) {
-        // Closed chains come back to their first vertex.
+        // The chain is closed: its last vertex is its first.
         while boundary.len() > 1 && boundary.first() == boundary.last() {
             boundary.pop();
         }
@@ -350,18 +346,18 @@ impl<'a> Builder<'a> {
 
     fn add(&mut self, p: Vec3) -> u32 {
         self.partition.points.push(p);
-        (self.hole.points.len() + self.partition.points.len() - 1) as u32
+        (self.hole.rim().len() + self.partition.points.len() - 1) as u32
     }
 
     fn position(&self, v: u32) -> Vec3 {
-        let rim = &self.hole.points;
+        let rim = self.hole.rim();
         match (v as usize).checked_sub(rim.len()) {
             None => rim[v as usize],
             Some(inner) => self.partition.points[inner],
         }
     }
 
-    /// Puts `kept` in the place of `removed` everywhere.
+    /// Replaces vertex `removed` by `kept` everywhere.
     fn unite(&mut self, kept: u32, removed: u32) {
         let faces = self.partition.faces.iter_mut().map(|f| &mut f.boundary);
         let chains = self.chains.iter_mut().map(|c| &mut c.vertices);
@@ -373,9 +369,9 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Removes points that no face uses and numbers the others anew.
+    /// Removes the points that no face uses and renumbers the others.
     fn drop_unused(&mut self) {
-        let rim = self.hole.points.len();
+        let rim = self.hole.rim().len();
         let mut is_used = vec![false; self.partition.points.len()];
         for &v in self.partition.faces.iter().flat_map(|f| &f.boundary) {
             if let Some(inner) = (v as usize).checked_sub(rim) {

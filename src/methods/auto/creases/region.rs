@@ -1,75 +1,63 @@
-//! The surface that continues one region round a hole.
+//! Chooses and fits the surface that continues one region of the mesh into a hole.
 //!
-//! It is chosen as [`choice`] does for a smooth hole, from the region's own triangles: those beyond a crease would
-//! bend normals and fits. A region with too few vertices to choose is continued by a plane if it is one, else
-//! by the function that interpolates it.
+//! The choice is that of [`choice`] for a smooth hole, but it reads only the region's own triangles. Triangles beyond a
+//! crease would falsify normals and fits. A region with too few vertices for a choice is continued by a plane if its
+//! vertices lie in one, otherwise by an interpolating function.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
+use crate::hole::Hole;
 use crate::job::Job;
 use crate::methods::auto::creases::detect::Regions;
 use crate::methods::auto::surface::algebraic::{AlgebraicSurface, Kind};
 use crate::methods::auto::surface::candidates::Candidate;
-use crate::methods::auto::surface::choice::{self, FITTED_RINGS};
 use crate::methods::auto::surface::samples::SampledBand;
+use crate::methods::auto::surface::{FITTED_RINGS, choice};
 use crate::methods::auto::surface::{Implicit, Sample};
-use crate::patch::HoleShape;
-use crate::surroundings::Band;
+use crate::surroundings::Surroundings;
+use crate::surroundings::fits::QuadricFits;
 
-/// A region is a plane when its vertices are this close to one, in rim edge lengths, or by this factor of its noise.
+/// A small region is a plane if the root mean square distance of its vertices from a plane is below the larger of two
+/// bounds: `PLANE_DISTANCE`, in mean rim edge lengths, and `PLANE_NOISE`, in units of its noise.
 const PLANE_DISTANCE: f64 = 5e-3;
 const PLANE_NOISE: f64 = 2.0;
 
-/// Vertices that a surface needs.
+/// Lower bound on the vertices that a surface is fitted to.
 const FEWEST_VERTICES: usize = 4;
-/// Most vertices that the surface of a region too small for a choice is fitted to: the cost of an interpolating
-/// function grows with the cube of their number.
+/// Upper bound on the vertices that the surface of a small region is fitted to. The cost of an interpolating function
+/// grows with the cube of this number.
 const MOST_VERTICES: usize = 140;
 
 /// The surface of a region.
 pub(crate) struct RegionSurface {
     pub(crate) candidate: Candidate,
     pub(crate) surface: Box<dyn Implicit>,
-    /// The score of the candidate, as [`choice::scores`] gives it, and the number of rim edges that it speaks for;
-    /// `None` for a region too small to be scored.
+    /// The score of the candidate from [`choice::scores`]; `None` for a region too small for a choice.
     pub(crate) score: Option<f64>,
 }
 
-/// The triangles of one region as the surroundings of the part of the rim that they touch.
-fn region_shape(hole: &HoleShape, faces: &[u32]) -> HoleShape {
-    let (rim_count, around) = (hole.points.len(), &hole.surroundings);
-    let triangles: Vec<[u32; 3]> = faces
-        .iter()
-        .map(|&f| around.triangles[f as usize])
-        .collect();
-    let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
+/// The part of the rim that the triangles of one region touch, with these triangles as its surroundings.
+fn region_of(around: &Surroundings, faces: &[u32]) -> Surroundings {
+    let triangles = || faces.iter().map(|&f| around.triangles()[f as usize]);
+    let mut used: Vec<u32> = triangles().flatten().collect();
     used.sort_unstable();
     used.dedup();
-    let mut shape = HoleShape::default();
-    for &v in &used {
-        match (v as usize).checked_sub(rim_count) {
-            None => {
-                shape.points.push(hole.points[v as usize]);
-                shape.edge_lengths.push(hole.edge_lengths[v as usize]);
-            }
-            Some(outer) => {
-                shape.surroundings.points.push(around.points[outer]);
-                shape.surroundings.levels.push(around.levels[outer]);
-            }
-        }
-    }
     // Every vertex is in the list.
     let number = |v: u32| used.partition_point(|&u| u < v) as u32;
-    shape.surroundings.triangles = triangles.iter().map(|t| t.map(number)).collect();
-    shape
+    Surroundings::new(
+        number(around.rim().len() as u32) as usize,
+        used.iter().map(|&v| around.point(v)).collect(),
+        used.iter().map(|&v| around.levels()[v as usize]).collect(),
+        triangles().map(|t| t.map(number)).collect(),
+    )
 }
 
-/// Chooses a surface for each region. `step` is the mean edge length at the rim; `allowed` says which candidates
-/// may be used.
+/// Chooses and fits a surface for each region. `step` is the mean edge length at the rim; `allowed` says which
+/// candidates may be used.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] when a region is too small; [`ErrorKind::Cancelled`].
+/// [`crate::ErrorKind::Geometry`] when a region is too small; [`crate::ErrorKind::Cancelled`].
 pub(crate) fn fit_regions(
-    hole: &HoleShape,
+    hole: &Hole,
     regions: &Regions,
     step: f64,
     allowed: &dyn Fn(Candidate, &SampledBand) -> bool,
@@ -77,8 +65,9 @@ pub(crate) fn fit_regions(
 ) -> Result<Vec<RegionSurface>> {
     let fit = |faces: &Vec<u32>| {
         job.ask()?;
-        let band = Band::new(&region_shape(hole, faces), job)?;
-        let mut samples = SampledBand::new(band, hole, step, true, job);
+        let region = region_of(&hole.surroundings, faces);
+        let fits = QuadricFits::new(&region, job)?;
+        let mut samples = SampledBand::new(fits, hole, step, true, job);
         let is_noisy = samples.is_noisy();
         let candidates: Vec<Candidate> = Candidate::ALL
             .into_iter()
@@ -103,7 +92,7 @@ fn fit_small(samples: &mut SampledBand) -> Result<RegionSurface> {
     let vertices = samples.spread(0..FITTED_RINGS + 1, MOST_VERTICES)?;
     if vertices.len() < FEWEST_VERTICES {
         let reason = "the region beside a crease is too small";
-        return Err(Error::new(ErrorKind::Geometry, reason.to_owned()));
+        return Err(Error::geometry(reason.to_owned()));
     }
     let chosen: Vec<Sample> = vertices.iter().map(|&v| samples.sample(v)).collect();
     let limit = samples.step * PLANE_DISTANCE.max(PLANE_NOISE * samples.noise);
@@ -117,12 +106,9 @@ fn fit_small(samples: &mut SampledBand) -> Result<RegionSurface> {
         });
     }
     let candidate = Candidate::Cubic;
-    let surface = candidate.fit_samples(&chosen).ok_or_else(|| {
-        Error::new(
-            ErrorKind::Geometry,
-            "no surface fits a region beside a crease".to_owned(),
-        )
-    })?;
+    let surface = candidate
+        .fit_samples(&chosen)
+        .ok_or_else(|| Error::geometry("no surface fits a region beside a crease"))?;
     Ok(RegionSurface {
         candidate,
         surface,

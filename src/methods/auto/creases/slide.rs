@@ -1,32 +1,34 @@
-//! Moves the ends of creases that run along the rim before they leave it.
+//! Corrects the ends of creases that run along the rim before they enter the hole.
 //!
-//! The known triangle at a rim edge tells which region the patch continues there, unless the edge lies on a crease
-//! itself: then the patch continues the region on the other side.
+//! Usually the patch continues, at each rim edge, the region of the known triangle there. But a rim edge can lie on a
+//! crease itself. Then the patch continues the region on the other side of the crease, and the end of the crease moves
+//! along the rim to the vertex where it really enters the hole.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
+use crate::hole::Hole;
 use crate::math::unit;
 use crate::methods::auto::creases::detect::Regions;
 use crate::methods::auto::surface::{Implicit, project};
-use crate::patch::HoleShape;
 
-/// A rim vertex this close to both surfaces, in rim edge lengths, lies on their crease.
+/// A rim vertex lies on a crease if its distance from both surfaces is below this, in mean rim edge lengths.
 const ON_SURFACE: f64 = 0.1;
 
-/// Cosine of the angle between a crease and a rim edge that lies on it, at least.
+/// Lower bound on the cosine of the angle between a crease and a rim edge that lies on it.
 const ALONG: f64 = 0.7;
 
-/// Moves each end along the rim for as long as both surfaces do.
+/// Moves each end along the rim as long as the next rim vertex lies on both surfaces, and updates the regions of the
+/// rim edges that it passes.
 ///
 /// # Errors
-/// [`ErrorKind::Geometry`] when nothing is left of a region.
+/// [`ErrorKind::Geometry`] when no rim edge is left to a region.
 pub(crate) fn slide_ends(
-    hole: &HoleShape,
+    hole: &Hole,
     regions: &mut Regions,
     surfaces: &[&dyn Implicit],
     step: f64,
 ) -> Result<()> {
     let len = hole.polygon.len();
-    let point = |position: usize| hole.points[hole.polygon[position % len] as usize];
+    let point = |position: usize| hole.rim()[hole.polygon[position % len] as usize];
     for k in 0..regions.ends.len() {
         for _ in 0..len {
             let end = regions.ends[k];
@@ -61,7 +63,7 @@ pub(crate) fn slide_ends(
     if (0..len).filter(|&i| is_end(i)).eq(positions.by_ref()) {
         Ok(())
     } else {
-        let reason = "a region beside a crease ends at the rim";
-        Err(Error::new(ErrorKind::Geometry, reason.to_owned()))
+        let reason = "no rim edge is left to a region beside a crease";
+        Err(Error::geometry(reason.to_owned()))
     }
 }

@@ -1,22 +1,24 @@
-//! Planes, spheres, quadrics and Darboux cyclides by linear least squares.
+//! Fits planes, spheres, quadrics and Darboux cyclides by linear least squares.
 //!
 //! The function is `f(x) = Σ c_k B_k(x)` with the monomials
 //!
 //! * plane: `1, x, y, z`;
-//! * sphere: these and `|x|²`;
+//! * sphere: those of the plane and `|x|²`;
 //! * quadric: those of the plane and all six of degree two;
 //! * cyclide: those of the quadric and `|x|² x, |x|² y, |x|² z, |x|⁴`. All quadrics, tori and Dupin cyclides are
 //!   Darboux cyclides (G. Darboux, "Sur une classe remarquable de courbes et de surfaces algébriques", 1873).
 //!
-//! Coefficients minimise `Σ f(p)² + |∇f(p) - n|²` over the samples `(p, n)`, in coordinates in which these have
-//! the size one. The gradient conditions, as in I. Macêdo, J. P. Gois, L. Velho, "Hermite radial basis functions
-//! implicits", CGF 30(1), 2011, rule out the trivial solution and keep `f` from vanishing elsewhere. Since no
-//! torus has gradients of one length, and few quadrics, the gradients are asked above all to point along the
-//! normals. Their length has a small weight, and its target is set to that of the solution before, `∇f·n` over
-//! its mean, a few times: what is left of a wrong target falls by the square of that weight each time.
+//! The coefficients minimize `Σ f(p)² + |∇f(p) - n|²` over the samples `(p, n)`, in the coordinates of [`Frame`]. The
+//! conditions on gradients follow I. Macêdo, J. P. Gois, L. Velho, "Hermite radial basis functions implicits", CGF
+//! 30(1), 2011. They exclude the solution `f = 0`.
 //!
-//! Singular directions of the system (a sphere through coplanar samples, say) are left out, so that the
-//! simplest surface of its kind comes back. Not guaranteed: that `f = 0` has no second sheet nearby.
+//! On a torus and on most quadrics no such `f` has gradients of length one. So a difference of length counts less than
+//! a difference of direction ([`LENGTH_WEIGHT`]), and the system is solved several times: each solution sets the target
+//! lengths for the next one, `∇f·n` divided by its mean. The influence of the first target decreases with the square of
+//! the weight each time.
+//!
+//! Singular directions of the system, as for a sphere through coplanar samples, are left out; the result is then the
+//! simplest surface of the kind. Not guaranteed: that `f = 0` has no second sheet nearby.
 
 use super::frame::{Fit, Frame, rms_distance};
 use super::{Implicit, Sample};
@@ -24,21 +26,21 @@ use crate::math::Vec3;
 use faer::Mat;
 use faer::linalg::solvers::Svd;
 
-/// Weight of the length of a gradient against its direction. The smaller, the sooner the lengths settle: with
-/// equal weights an ellipsoid takes fifty rounds. Without any, coplanar samples would be free to choose among all
-/// surfaces that contain a plane.
+/// Weight of the length of a gradient, relative to its direction. With a small weight the lengths converge quickly;
+/// with weight 1 an ellipsoid takes fifty rounds. It must not be 0: then coplanar samples would not determine which of
+/// the surfaces that contain a plane is taken.
 const LENGTH_WEIGHT: f64 = 0.1;
 
-/// Solutions after the first, which asks for gradients of one length.
+/// Number of solutions after the first one. The first one has the target length 1 for all gradients.
 const REWEIGHTINGS: usize = 6;
 
-/// Singular values below this part of the largest carry no information but rounding errors.
+/// Singular values below this part of the largest one are rounding errors.
 const SINGULAR: f64 = 1e-11;
 
 /// Number of monomials of the largest kind.
 const MOST_TERMS: usize = 14;
 
-/// Conditions per unknown below which a fit would follow each sample instead of their common shape.
+/// Lower bound on the conditions for each unknown. With fewer, a fit would follow single samples.
 const CONDITIONS_PER_TERM: usize = 2;
 
 /// A kind of surface that is the zero set of a sum of monomials.
@@ -105,8 +107,8 @@ pub(crate) struct AlgebraicSurface {
 }
 
 impl AlgebraicSurface {
-    /// Fits a surface of the kind. `None` when the samples lie in one place, are too few for it, or hold a
-    /// number that is not finite, and when no surface comes out.
+    /// Fits a surface of the kind. `None` when the samples lie in one place, are too few, have a number that is not
+    /// finite, or when the mean gradient does not point along the normals.
     ///
     /// # Complexity
     /// Linear in the number of samples.
@@ -154,18 +156,17 @@ impl Implicit for AlgebraicSurface {
     }
 }
 
-/// The conditions on the coefficients as a least squares problem, decomposed.
+/// The least squares problem for the coefficients, with its singular value decomposition.
 struct System {
     svd: Svd<f64>,
-    /// What the target length of each sample's gradient adds to each component of the right-hand side along the left
-    /// singular vectors.
+    /// Maps the target lengths of the gradients to the right-hand side, in components along the left singular vectors.
     components: Mat<f64>,
-    /// What each coefficient adds to the length of the gradient at each sample, along its normal.
+    /// Maps the coefficients to the lengths of the gradients along the normals of the samples.
     lengths: Mat<f64>,
 }
 
 impl System {
-    /// `None` when the singular values cannot be found.
+    /// `None` when the decomposition does not converge.
     fn new(kind: Kind, samples: &[Sample]) -> Option<Self> {
         let terms = kind.terms();
         let mut matrix = Mat::zeros(4 * samples.len(), terms);
@@ -197,8 +198,8 @@ impl System {
         })
     }
 
-    /// The coefficients for target lengths of the gradients, of smallest norm in the directions that the samples do
-    /// not determine.
+    /// The coefficients for the given target lengths of the gradients; those of smallest norm where the samples do not
+    /// determine them.
     fn solve(&self, lengths: &Mat<f64>) -> Mat<f64> {
         let mut components = &self.components * lengths;
         let singular_values = self.svd.S().column_vector();

@@ -1,25 +1,43 @@
-//! The surfaces that compete to continue the known one.
+//! The candidate surfaces: their names, their complexity, which surroundings they suit, and how they are fitted.
+//!
+//! How each kind is fitted stands in `algebraic`, `primitives` and `hermite_rbf`. `choice` chooses among them.
 
 use super::algebraic::{AlgebraicSurface, Kind};
-use super::choice::FITTED_RINGS;
 use super::frame::Fit;
 use super::hermite_rbf::{HermiteRbf, Kernel};
 use super::primitives::{cone::Cone, cylinder::Cylinder, torus::Torus};
 use super::samples::SampledBand;
-use super::{Implicit, Sample};
+use super::{FITTED_RINGS, Implicit, Sample};
 use crate::error::Result;
 
-/// Most samples of an interpolating function that is scored, and of one that is used: the cost grows with the cube, the
-/// accuracy little.
-const MOST_CENTERS: [usize; 2] = [80, 140];
-/// The same for surfaces that are found by iteration, whose every step reads all samples.
-const MOST_ITERATED_SAMPLES: [usize; 2] = [60, 100];
-/// The same for algebraic surfaces, which are decomposed once.
-const MOST_LINEAR_SAMPLES: [usize; 2] = [150, 300];
-/// Rings of samples of an interpolating function of the whole surroundings: two determine position, tangent plane
-/// and curvature at the rim, and further ones only cost.
+/// Upper bounds on the number of samples of a fit.
+#[derive(Clone, Copy)]
+struct SampleLimits {
+    /// While candidates are compared.
+    scored: usize,
+    /// For the final fit.
+    used: usize,
+}
+
+/// For interpolating functions. The cost grows with the cube of the number; the accuracy hardly changes.
+const INTERPOLATING_LIMITS: SampleLimits = SampleLimits {
+    scored: 80,
+    used: 140,
+};
+/// For surfaces that are fitted by iteration. Each step reads all samples.
+const ITERATED_LIMITS: SampleLimits = SampleLimits {
+    scored: 60,
+    used: 100,
+};
+/// For algebraic surfaces. One decomposition solves the fit.
+const ALGEBRAIC_LIMITS: SampleLimits = SampleLimits {
+    scored: 150,
+    used: 300,
+};
+/// The last ring of vertices that the final fit of an interpolating function reads. The rings 0 and 1 determine
+/// position, tangent plane and curvature at the rim; further rings only cost time.
 const LAST_CENTER_LEVEL: u32 = 1;
-/// Ridge of the function that passes by noisy samples, in coordinates of unit spread.
+/// Ridge of [`Candidate::CubicRidge`], in coordinates in which the samples have unit spread.
 const RIDGE: f64 = 0.1;
 
 /// A kind of surface that may continue the surroundings of a hole.
@@ -38,21 +56,21 @@ pub enum Candidate {
     Torus,
     /// Any surface of degree two: ellipsoids, paraboloids, hyperboloids, cylinders, cones.
     Quadric,
-    /// Darboux cyclide: contains the quadrics and the tori.
+    /// Darboux cyclide; quadrics and tori are special cases.
     Cyclide,
     /// Interpolating function with the kernel `r³`.
     Cubic,
-    /// The same through smoothed points.
+    /// `Cubic` through smoothed points.
     CubicSmoothed,
-    /// The same passing by smoothed points.
+    /// `CubicSmoothed` with a ridge: it approximates the smoothed points.
     CubicRidge,
     /// Interpolating function with the kernel `r⁵`.
     Quintic,
 }
 
 impl Candidate {
-    /// All candidates, in the order in which they are scored: those that rule others out come first, and the quintic
-    /// kernel, which is judged by the cubic one, after that.
+    /// All candidates, in the order in which they are scored. A gate (`Candidate::gate`) comes before the candidates
+    /// that need it, and the cubic kernels before the quintic one, which is compared with them.
     pub const ALL: [Self; 11] = [
         Self::Quadric,
         Self::Plane,
@@ -85,8 +103,8 @@ impl Candidate {
         }
     }
 
-    /// Degrees of freedom; for interpolating functions, which have as many as data, numbers that put them last, and
-    /// the less robust ones behind.
+    /// Degrees of freedom. Interpolating functions have as many as data; they get numbers that only put them in order,
+    /// after all others, with the more robust ones first.
     pub(crate) fn freedom(self) -> u32 {
         match self {
             Self::Plane => 3,
@@ -108,7 +126,7 @@ impl Candidate {
         self.freedom() >= Self::Cubic.freedom()
     }
 
-    /// Whether the candidate suits surroundings with such noise and detail.
+    /// Whether the candidate may compete on surroundings with this noise and detail.
     pub(crate) fn suits(self, samples: &SampledBand) -> bool {
         match self {
             Self::Cubic => !samples.is_detail_misleading(),
@@ -119,8 +137,7 @@ impl Candidate {
         }
     }
 
-    /// The candidate that contains or approximates this one and costs less: it must score well for this one to be
-    /// tried.
+    /// A cheaper candidate that contains or approximates this one. This one is tried only if its gate scores well.
     pub(crate) fn gate(self) -> Option<Self> {
         match self {
             Self::Plane | Self::Sphere | Self::Cylinder | Self::Cone => Some(Self::Quadric),
@@ -129,21 +146,21 @@ impl Candidate {
         }
     }
 
-    /// Most samples of a fit that is scored, and of one that is used.
-    fn most_samples(self) -> [usize; 2] {
+    fn sample_limits(self) -> SampleLimits {
         match self {
-            Self::Cylinder | Self::Cone | Self::Torus => MOST_ITERATED_SAMPLES,
-            _ if self.interpolates() => MOST_CENTERS,
-            _ => MOST_LINEAR_SAMPLES,
+            Self::Cylinder | Self::Cone | Self::Torus => ITERATED_LIMITS,
+            _ if self.interpolates() => INTERPOLATING_LIMITS,
+            _ => ALGEBRAIC_LIMITS,
         }
     }
 
-    /// Most samples of a fit that is scored.
+    /// Upper bound on the samples of a fit that is scored.
     pub(crate) fn most_scored(self) -> usize {
-        self.most_samples()[0]
+        self.sample_limits().scored
     }
 
-    /// Fits the surface to the vertices, which robust candidates smooth where there is noise: that is what is scored.
+    /// Fits the surface to the vertices, for scoring. If the surroundings are noisy, all candidates but `Cubic` and
+    /// `Quintic` read smoothed points.
     pub(crate) fn fit(
         self,
         samples: &mut SampledBand,
@@ -154,7 +171,8 @@ impl Candidate {
         self.fit_to(samples, vertices, rings)
     }
 
-    /// Fits the surface to the vertices, smoothed over so many rings of neighbours.
+    /// Fits the surface to the vertices. `rings` is the number of rings of neighbors to smooth over; `None` reads the
+    /// vertices as they are.
     fn fit_to(
         self,
         samples: &mut SampledBand,
@@ -192,13 +210,13 @@ impl Candidate {
         }
     }
 
-    /// The surface that continues the surroundings into the hole.
+    /// The final fit, which continues the surroundings into the hole. `None` when the samples determine no surface.
     pub(crate) fn fit_to_rim(self, samples: &mut SampledBand) -> Result<Option<Box<dyn Implicit>>> {
         let last = match self {
             Self::Cubic | Self::Quintic => LAST_CENTER_LEVEL,
             _ => FITTED_RINGS,
         };
-        let vertices = samples.spread(0..last + 1, self.most_samples()[1])?;
+        let vertices = samples.spread(0..last + 1, self.sample_limits().used)?;
         let over_noise = samples.is_noisy().then(|| samples.rings_over_noise());
         let rings = match self {
             Self::Cubic | Self::Quintic => None,
@@ -222,22 +240,22 @@ mod tests {
     use super::*;
     use crate::job::UNLIMITED;
     use crate::math::Vec3;
-    use crate::surroundings::Band;
+    use crate::surroundings::fits::QuadricFits;
 
-    /// The surroundings of a round hole in a paraboloid that rises by a twentieth of the hole's width, with ripples of
-    /// this height, five edges long; then all is flattened by the factor along one axis.
+    /// The surroundings of a round hole in a paraboloid, with ripples of height `ripple`, five edges long. At the rim
+    /// the paraboloid has risen by a twentieth of the hole's width. All is scaled by `flatness` along one axis.
     fn rippled(around: u32, ripple: f64, phase: f64, flatness: f64) -> SampledBand<'static> {
         let radius = f64::from(around) / 6.0;
         let mut shape = rings_around(around, |x, y| {
             let rise = 0.1 / radius * (x * x + y * y);
             rise + ripple * ((1.2 * x + phase).sin() * (1.1 * y - phase).sin())
         });
-        let around = &mut shape.surroundings.points;
-        for p in shape.points.iter_mut().chain(around) {
-            p.y *= flatness;
-        }
-        let band = Band::new(&shape, &UNLIMITED).unwrap();
-        SampledBand::new(band, &shape, 1.0, true, &UNLIMITED)
+        let mut points = shape.surroundings.points().to_vec();
+        points.iter_mut().for_each(|p| p.y *= flatness);
+        shape.surroundings = shape.surroundings.moved(points);
+        let shape = Box::leak(Box::new(shape));
+        let fits = QuadricFits::new(&shape.surroundings, &UNLIMITED).unwrap();
+        SampledBand::new(fits, shape, 1.0, true, &UNLIMITED)
     }
 
     /// How far off the surface is in the middle, over eight phases of the ripples.

@@ -1,13 +1,14 @@
-//! Samples of analytic surfaces for the tests.
+//! Samples of analytic surfaces, for the tests of this module.
 
-use super::choice::RINGS;
+use super::RINGS;
 use super::{Implicit, Sample};
+use crate::hole::Hole;
 use crate::math::{Vec3, unit};
-use crate::patch::{HoleShape, Surroundings};
+use crate::surroundings::Surroundings;
 use nalgebra::Rotation3;
 use std::f64::consts::TAU;
 
-/// A surface given by its points and normals over the unit square.
+/// A parametric surface: point and normal for a parameter in the unit square.
 pub(crate) type Parametric = fn(f64, f64) -> (Vec3, Vec3);
 
 pub(crate) fn plane(u: f64, v: f64) -> (Vec3, Vec3) {
@@ -57,14 +58,14 @@ pub(crate) fn ellipsoid(u: f64, v: f64) -> (Vec3, Vec3) {
     )
 }
 
-/// Numbers between -1 and 1 without a pattern, the same each time.
+/// Pseudorandom numbers between -1 and 1, the same each time.
 pub(crate) fn scatter(index: usize) -> f64 {
     let x = ((index as f64 + 1.0) * 12.9898).sin() * 43_758.545_3;
     2.0 * (x - x.floor()) - 1.0
 }
 
-/// `count` times `count` samples, moved by up to `noise` per coordinate and with normals off by ten times that,
-/// turned and shifted so that no axis is special.
+/// `count` times `count` samples of the surface, turned and shifted so that no axis is special. Each coordinate is
+/// moved by up to `noise`, and each normal by ten times that.
 pub(crate) fn sampled(surface: Parametric, count: usize, noise: f64) -> Vec<Sample> {
     let turn = turn();
     (0..count * count)
@@ -101,8 +102,9 @@ pub(crate) fn deviation(fitted: &impl Implicit, surface: Parametric) -> (f64, f6
     deviations.fold((0.0, 0.0), |a, b| (a.0.max(b.0), a.1.max(b.1)))
 }
 
-/// The rings of a surface with this height over the plane, round a round hole of `around` edges 1.05 long.
-pub(crate) fn rings_around(around: u32, height: impl Fn(f64, f64) -> f64) -> HoleShape {
+/// The rings of triangles round a round hole with `around` edges, 1.05 long, in the surface with the given height above
+/// the plane.
+pub(crate) fn rings_around(around: u32, height: impl Fn(f64, f64) -> f64) -> Hole {
     let point = |ring: u32, k: u32| {
         let radius = f64::from(around) / 6.0 + f64::from(ring);
         let (sin, cos) = (TAU * f64::from(k) / f64::from(around)).sin_cos();
@@ -124,14 +126,14 @@ pub(crate) fn rings_around(around: u32, height: impl Fn(f64, f64) -> f64) -> Hol
         ];
         [[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]]
     });
-    HoleShape {
-        points: ring(0).collect(),
+    Hole {
         polygon: (0..around).collect(),
-        surroundings: Surroundings {
-            points: (1..=RINGS).flat_map(&ring).collect(),
-            levels: (1..=RINGS).flat_map(|r| vec![r; around as usize]).collect(),
-            triangles: triangles.collect(),
-        },
-        ..HoleShape::default()
+        surroundings: Surroundings::new(
+            around as usize,
+            (0..=RINGS).flat_map(&ring).collect(),
+            (0..=RINGS).flat_map(|r| vec![r; around as usize]).collect(),
+            triangles.collect(),
+        ),
+        ..Hole::default()
     }
 }

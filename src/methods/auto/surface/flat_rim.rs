@@ -1,20 +1,21 @@
-//! Whether a hole is a gap in a flat face.
+//! Recognizes a hole that is a gap in a flat face.
 //!
-//! Where nearly all of the rim runs through one plane, with its triangles in that plane too, what is missing is a
-//! piece of it, however the face ends further out: a few coarse triangles of a flat foot, say, which leave-out bands
-//! on its rounded sides cannot foretell.
+//! A hole is such a gap if most of its rim edges and their triangles lie in one plane. Cross-validation can miss this:
+//! on a coarse model a flat face may have only a few triangles round the hole, and the rings that are left out already
+//! lie on the surface that it bends into.
 //!
-//! Weighted medians find a plane that has more than half of the weight. Complexity: O(m log m) for `m` rim edges.
+//! The normal and the position of the plane are medians, weighted by edge lengths. They are not changed by outliers
+//! with less than half of the weight. Cost: O(m log m) for `m` rim edges.
 
 use super::Implicit;
+use crate::hole::Hole;
 use crate::math::{Vec3, unit};
-use crate::patch::HoleShape;
 
-/// Share of the length of the rim edges that have a triangle with a normal that lies in the plane, at least.
+/// Lower bound on the length of the rim edges in the plane, divided by the length of all rim edges with a triangle.
 const SHARE: f64 = 0.8;
-/// Least cosine between the normal of a triangle in the plane and that of the plane: one degree.
+/// Lower bound on the cosine of the angle between the plane and a triangle in it. It stands for one degree.
 const ALIKE: f64 = 0.99985;
-/// Distance of a rim vertex in the plane from it, in mean rim edges, at most.
+/// Upper bound on the distance between the plane and a rim vertex in it, in mean rim edge lengths.
 const NEAR: f64 = 0.005;
 
 /// A plane with a unit normal.
@@ -29,9 +30,13 @@ impl Implicit for RimPlane {
     }
 }
 
-/// The plane that the rim and its triangles lie in, but for a small part.
-pub(crate) fn plane_of_rim(hole: &HoleShape) -> Option<RimPlane> {
-    let corners: Vec<Vec3> = hole.polygon.iter().map(|&v| hole.point(v)).collect();
+/// The plane in which most of the rim lies, with its triangles; `None` if there is no such plane.
+pub(crate) fn plane_of_rim(hole: &Hole) -> Option<RimPlane> {
+    let corners: Vec<Vec3> = hole
+        .polygon
+        .iter()
+        .map(|&v| hole.surroundings.point(v))
+        .collect();
     let next = |i: usize| corners[(i + 1) % corners.len()];
     // Length, ends and normal of each edge with a triangle.
     let edges: Vec<(f64, [Vec3; 2], Vec3)> = hole
@@ -62,7 +67,7 @@ pub(crate) fn plane_of_rim(hole: &HoleShape) -> Option<RimPlane> {
     (flat >= SHARE * whole && whole > 0.0).then_some(RimPlane { normal, offset })
 }
 
-/// The value that half of the weight is not above; the pairs are value and weight.
+/// The median of values with weights: the smallest value such that it and the smaller ones have half of the weight.
 fn weighted_median(mut pairs: Vec<(f64, f64)>) -> Option<f64> {
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
     let half = 0.5 * pairs.iter().map(|p| p.1).sum::<f64>();
@@ -76,9 +81,10 @@ fn weighted_median(mut pairs: Vec<(f64, f64)>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::surroundings::Surroundings;
 
     /// A round rim in the plane z = 0 whose triangles lean by `lean(i)` radians, and whose vertices rise by `rise(i)`.
-    fn hole(lean: impl Fn(usize) -> f64, rise: impl Fn(usize) -> f64) -> HoleShape {
+    fn hole(lean: impl Fn(usize) -> f64, rise: impl Fn(usize) -> f64) -> Hole {
         let m = 20;
         let angle = |i: usize| i as f64 * std::f64::consts::TAU / m as f64;
         let turn = nalgebra::Rotation3::from_euler_angles(0.4, -0.9, 1.3);
@@ -88,11 +94,11 @@ mod tests {
             let out = Vec3::new(angle(i).cos(), angle(i).sin(), 0.0);
             Some(turn * (out * lean(i).sin() + Vec3::z() * lean(i).cos()))
         };
-        HoleShape {
-            points: (0..m).map(point).collect(),
+        Hole {
+            surroundings: Surroundings::bare((0..m).map(point).collect()),
             polygon: (0..m as u32).collect(),
             outside_normals: (0..m).map(normal).collect(),
-            ..HoleShape::default()
+            ..Hole::default()
         }
     }
 
@@ -101,7 +107,7 @@ mod tests {
         let lean = |i| if i < 3 { 0.8 } else { 0.0 };
         let plane = plane_of_rim(&hole(lean, |i| if i == 1 { 0.3 } else { 0.0 })).unwrap();
         let flat = hole(lean, |_| 0.0);
-        for p in &flat.points {
+        for p in flat.rim() {
             assert!(plane.value_and_gradient(p).0.abs() < 1e-12);
         }
         assert!(plane_of_rim(&hole(|i| if i < 5 { 0.8 } else { 0.0 }, |_| 0.0)).is_none());
@@ -112,6 +118,6 @@ mod tests {
         assert!(plane_of_rim(&hole(|_| 0.05, |_| 0.0)).is_none());
         assert!(plane_of_rim(&hole(|_| std::f64::consts::FRAC_PI_2, |_| 0.0)).is_none());
         assert!(plane_of_rim(&hole(|_| 0.0, |i| 0.02 * (i % 3) as f64)).is_none());
-        assert!(plane_of_rim(&HoleShape::default()).is_none());
+        assert!(plane_of_rim(&Hole::default()).is_none());
     }
 }

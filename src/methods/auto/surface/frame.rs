@@ -1,5 +1,5 @@
-//! Coordinates in which fits are well scaled: the centroid of the samples at the origin, their root mean square
-//! distance from it one.
+//! Scaled coordinates for fits: the centroid of the samples is the origin, and their root mean square distance from it
+//! is one. This keeps the linear systems well-conditioned.
 
 use super::{Implicit, Sample};
 use crate::math::Vec3;
@@ -9,11 +9,11 @@ use crate::math::Vec3;
 pub(crate) struct Fit<S> {
     /// The surface, in the coordinates of the samples.
     pub(crate) surface: S,
-    /// Root mean square of the samples' distances from it, to first order.
+    /// Root mean square distance of the samples from the surface, to first order.
     pub(crate) rms: f64,
 }
 
-/// Where the samples lie and how large they are.
+/// The origin and the unit of the scaled coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Frame {
     center: Vec3,
@@ -51,14 +51,14 @@ impl Frame {
         samples.iter().map(enter).collect()
     }
 
-    /// The value of a function whose value in the frame is `value` and whose gradient has the same length on
-    /// both sides.
+    /// The value of a function in the original coordinates, from its value in the frame. The function is scaled so that
+    /// its gradient is the same in both.
     pub(crate) fn leave_value(&self, value: f64) -> f64 {
         value * self.scale
     }
 }
 
-/// Root mean square distance of the samples from the surface, to first order; `None` when it is no number.
+/// Root mean square distance of the samples from the surface, to first order; `None` when it is not finite.
 pub(crate) fn rms_distance(surface: &impl Implicit, samples: &[Sample]) -> Option<f64> {
     let squares = samples.iter().map(|s| {
         let (value, gradient) = surface.value_and_gradient(&s.point);

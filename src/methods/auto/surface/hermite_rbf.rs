@@ -1,18 +1,18 @@
-//! Implicit surfaces from radial basis functions that interpolate points and normals.
+//! Implicit surfaces that interpolate points and normals: Hermite radial basis functions.
 //!
 //! Based on: H. Wendland, "Scattered Data Approximation", Cambridge University Press, 2005, section 16.2
 //! (Hermite-Birkhoff interpolation by conditionally positive definite functions), as used for surfaces by
 //! I. Macêdo, J. P. Gois, L. Velho, "Hermite radial basis functions implicits", Computer Graphics Forum 30(1), 2011.
 //!
-//! With the kernel `φ(r) = r³` or `r⁵`, the centres `x_i` and their normals `n_i`,
+//! With the kernel `φ(r) = r³` or `r⁵`, the centers `x_i` and their normals `n_i`,
 //!
 //! `f(x) = Σ a_i φ(|x - x_i|) - Σ b_i · ∇φ(|x - x_i|) + Σ c_j B_j(x)`,
 //!
-//! where `B` are the ten monomials up to degree two. The conditions `f(x_i) = 0` and `∇f(x_i) = n_i`, and that `a` and
-//! `b` annihilate all `B_j`, make a symmetric system of `4n + 10` unknowns. The surface with `f = 0` continues the
-//! points with the least bending that the kernel knows; quadrics are reproduced exactly, because of `B`.
+//! where `B` are the ten monomials up to degree two. The conditions are `f(x_i) = 0`, `∇f(x_i) = n_i`, and that `a` and
+//! `b` annihilate all `B_j`. They make a symmetric system of `4n + 10` unknowns. Among all interpolating functions, `f`
+//! has the smallest energy that belongs to the kernel. Because of `B`, quadrics are reproduced exactly.
 //!
-//! Fitting costs `O(n³)`, a value `O(n)`. Not guaranteed: that `f = 0` is a single sheet away from the centres.
+//! Cost: `O(n³)` for a fit, `O(n)` for a value. Not guaranteed: that `f = 0` is a single sheet away from the centers.
 
 use super::{Implicit, Sample};
 use crate::math::Vec3;
@@ -24,12 +24,12 @@ use faer::linalg::solvers::{PartialPivLu, Solve};
 pub(crate) enum Kernel {
     /// `r³`: robust.
     Cubic,
-    /// `r⁵`: smoother; more exact where the surface is smooth and overshooting where it is not.
+    /// `r⁵`: more exact where the surface is smooth, but overshoots where it is not.
     Quintic,
 }
 
 impl Kernel {
-    /// `φ`, `φ'/r` and the derivative of that over `r`, at the distance `r`.
+    /// `φ`, `φ'/r` and `(φ'/r)'/r` at the distance `r`.
     #[inline]
     fn derivatives(self, r: f64) -> [f64; 3] {
         match self {
@@ -42,10 +42,10 @@ impl Kernel {
     }
 }
 
-/// Monomials up to degree two.
+/// Number of monomials up to degree two.
 const TAIL: usize = 10;
-/// Added to the diagonal, in coordinates of unit spread: planes and other quadrics that leave a monomial undetermined
-/// must not make the system singular.
+/// Added to the diagonal, in coordinates in which the samples have unit spread. Samples of a plane or another quadric
+/// do not determine all monomials; the shift keeps the system regular.
 const SHIFT: f64 = 1e-12;
 
 /// An interpolating function.
@@ -66,8 +66,8 @@ struct Node {
 }
 
 impl HermiteRbf {
-    /// Interpolates the samples; `ridge` (0 for exact interpolation) is added to the diagonal and lets the surface
-    /// pass by noisy samples, in coordinates of unit spread.
+    /// Interpolates the samples. `ridge` is added to the diagonal, in coordinates in which the samples have unit
+    /// spread: 0 interpolates exactly, more approximates noisy samples.
     ///
     /// `None` for fewer than four samples, samples without spread or a solution that is not finite.
     pub(crate) fn fit(samples: &[Sample], kernel: Kernel, ridge: f64) -> Option<Self> {

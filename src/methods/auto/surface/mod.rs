@@ -1,4 +1,4 @@
-//! Surfaces that continue the surroundings of a hole as zero sets of functions.
+//! The surfaces that may continue the mesh into a hole, each as the zero set of a function, and the choice among them.
 
 pub(crate) mod algebraic;
 pub(crate) mod candidates;
@@ -14,6 +14,11 @@ pub(crate) mod samples;
 pub(crate) mod tip;
 
 use crate::math::Vec3;
+
+/// Rings of triangles round the hole that are read.
+pub(crate) const RINGS: u32 = 9;
+/// Rings of triangles that a surface is fitted to. They have one more ring of vertices.
+pub(crate) const FITTED_RINGS: u32 = 3;
 
 /// A point of the known surface with its normal.
 #[derive(Clone, Copy, Debug, PartialEq)]

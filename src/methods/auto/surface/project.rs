@@ -1,20 +1,22 @@
-//! Moves points onto an implicit surface.
+//! Moves points onto an implicit surface `f = 0`, and measures distances to it.
 //!
-//! Newton steps along the gradient, `p - f ∇f / |∇f|²`. Their length is limited: a patch that starts far from the
-//! surface shall reach the sheet that its rim lies on, not the next best.
+//! A point moves in Newton steps along the gradient, `p - f ∇f / |∇f|²`. The length of a step is limited, so that a
+//! patch that starts far from the surface reaches the sheet that its rim lies on, and not another one.
+//!
+//! Not guaranteed: convergence, and that the point reached is the nearest one of the surface.
 
 use super::Implicit;
 use crate::math::Vec3;
 
-/// A step shorter than this share of the limit ends the projection: Newton's method squares what remains.
+/// A step shorter than this share of the limit ends the projection. Newton's method squares the remaining error.
 const CONVERGED_SHARE: f64 = 1e-5;
-/// Gradients of the functions are about one at the surface; below this they have no direction.
+/// Lower bound on the length of a gradient that gives a direction. At the surface the length is about one.
 const SMALLEST_GRADIENT: f64 = 1e-6;
 
-/// Places that are looked at for the way out of a surface: over six diameters of a rim, one in 0.03 diameters. Thinner
-/// layers are missed.
+/// Number of intervals that a ray is divided into to find where it leaves a surface. For the usual ray of six
+/// diameters of a rim, one interval is 0.03 diameters long. Thinner layers can be missed.
 const WAY_STEPS: u32 = 200;
-/// Halvings of the way between two of them, to a millionth of it.
+/// Bisections of the interval in which the ray leaves the surface. They reduce it to a millionth of its length.
 const BISECTIONS: usize = 20;
 
 /// The point after at most `steps` Newton steps of at most the length `limit`.
@@ -42,8 +44,8 @@ pub(crate) fn distance(surface: &dyn Implicit, point: &Vec3) -> f64 {
     value.abs() / gradient.norm().max(SMALLEST_GRADIENT)
 }
 
-/// How far from `origin`, along the unit vector `direction`, the surface is left first, at most `farthest`; `None`
-/// where it is not, and where the origin is not behind it.
+/// The distance from `origin`, along the unit vector `direction`, to the first point where the function becomes
+/// positive. `None` when there is none within `farthest`, or when the function is not negative at `origin`.
 pub(crate) fn way_out(
     surface: &dyn Implicit,
     origin: &Vec3,

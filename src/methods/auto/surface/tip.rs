@@ -1,34 +1,41 @@
-//! Whether a hole is the missing tip of a horn.
+//! Recognizes a hole that is the missing tip of a horn, and finds the height of the tip.
 //!
-//! Where the surface stands steeply on the plane of a small rim and closes in on the hole, what is missing is the end
-//! of something long. Interpolating functions round such ends off too early; a quadric, fitted to a converging tube,
-//! is an ellipsoid or a paraboloid and closes like one.
+//! A hole is a tip if its rim is small and nearly planar, the mesh is steep against the plane of the rim, and it
+//! converges toward the hole. An interpolating function would close such a hole too early. A quadric fitted to a
+//! converging tube is an ellipsoid, a paraboloid or a cone, and has a tip. So the quadric or the cone is used if its
+//! score allows it.
+//!
+//! Cost: linear in the number of vertices round the hole. Not guaranteed: that every tip is recognized.
 
 use super::Implicit;
 use super::candidates::Candidate;
 use super::choice::{Score, score_of};
 use super::project::way_out;
+use crate::hole::Hole;
 use crate::math::Vec3;
-use crate::patch::HoleShape;
-use crate::surroundings::Band;
 use nalgebra::{Matrix3, SymmetricEigen};
 
-/// Mean angle between the normals of the triangles at the rim and that of the rim's plane, at least.
+/// Lower bound on the mean angle, in radians, between the normals of the triangles at the rim and the normal of the
+/// rim's plane.
 const STEEP: f64 = 60.0 * std::f64::consts::PI / 180.0;
-/// Spread of the rim across its plane over that along it, at most; coarse rims are ragged, and beyond this have no plane.
+/// Upper bound on the spread of the rim vertices across their plane, divided by their largest spread. It is large
+/// because coarse rims are ragged.
 const FLAT: f64 = 0.5;
-/// Edges of the rim, fewer than this: the end of something wide is no tip.
+/// A rim with at least this number of edges is not the rim of a tip.
 const SMALL: usize = 80;
-/// Mean component of the normals towards the hole, at least: 0 is a tube of constant width, which has no tip to grow.
+/// Lower bound on the mean component of the normals in the direction of the hole. It is 0 for a tube of constant width,
+/// which has no tip.
 const CONVERGING: f64 = 0.08;
 
-/// A surface that closes is used when its score is within this factor of the best of all but [`TOO_FREE`]: the rings
-/// left out lie on the flank and say less about the tip than that it closes.
+/// A surface that closes is used if its score is within this factor of the best score of all candidates but
+/// [`TOO_FREE`]. A worse score is accepted because the rings that were left out lie on the flank, and say little about
+/// the tip.
 const TOLERANCE: f64 = 1.5;
-/// The tip is further from the rim than any ring that was left out: surfaces with so much freedom bend on the way.
+/// Candidates that are not used for a tip. The tip is further from the rim than any ring that was left out, and
+/// surfaces with many degrees of freedom bend on the way.
 const TOO_FREE: [Candidate; 2] = [Candidate::Cyclide, Candidate::Torus];
 
-/// The surface that closes a tip, if it predicts well: the quadric, or the cone where that has the better score.
+/// The candidate that closes a tip, if its score allows it: the quadric, or the cone if its score is better.
 pub(crate) fn closing_candidate(scores: &[Score]) -> Option<Candidate> {
     let best = scores
         .iter()
@@ -46,30 +53,32 @@ pub(crate) fn closing_candidate(scores: &[Score]) -> Option<Candidate> {
     }
 }
 
-/// What is left of a horn whose tip may be missing.
+/// What is left of a horn whose tip is missing.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stump {
     /// The centroid of the rim.
     center: Vec3,
-    /// Unit vector across the rim's plane, away from the surroundings.
-    onwards: Vec3,
+    /// Unit normal of the rim's plane, away from the surroundings.
+    onward: Vec3,
 }
 
 /// A missing tip on the surface that closes it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tip {
     stump: Stump,
-    /// From the centroid of the rim to the apex.
+    /// Distance from the centroid of the rim to the apex.
     height: f64,
 }
 
-/// Height of a tip in diameters of the rim, at least: lower than half a sphere it is a cap, which needs no help.
+/// Lower bound on the height of a tip, in diameters of the rim. Half a sphere has 0.5; a lower cap needs no special
+/// treatment.
 const LEAST_HEIGHT: f64 = 0.5;
 
 impl Stump {
-    /// The tip that the surface puts on the stump, if it has one up to `reach` above a rim of the diameter.
+    /// The tip that the surface puts on the stump; `None` if its apex is lower than [`LEAST_HEIGHT`] or higher than
+    /// `reach`. `diameter` is that of the rim.
     pub(crate) fn tip_on(&self, surface: &dyn Implicit, diameter: f64, reach: f64) -> Option<Tip> {
-        let height = way_out(surface, &self.center, &self.onwards, reach)?;
+        let height = way_out(surface, &self.center, &self.onward, reach)?;
         (height > LEAST_HEIGHT * diameter).then_some(Tip {
             stump: *self,
             height,
@@ -78,16 +87,16 @@ impl Stump {
 }
 
 impl Tip {
-    /// Where a point goes that is to be at this share of the way up to the apex; higher ones stay.
+    /// The point, raised to the given share of the height of the tip. A point that is higher stays.
     pub(crate) fn raised(&self, p: &Vec3, share: f64) -> Vec3 {
-        let present = (p - self.stump.center).dot(&self.stump.onwards);
-        p + f64::max(share * self.height - present, 0.0) * self.stump.onwards
+        let present = (p - self.stump.center).dot(&self.stump.onward);
+        p + f64::max(share * self.height - present, 0.0) * self.stump.onward
     }
 }
 
-/// Judges by the rim, its normals and the direction in which the surroundings end.
-pub(crate) fn find_stump(hole: &HoleShape, band: &Band) -> Option<Stump> {
-    let rim = &hole.points;
+/// The stump round the hole; `None` if the hole is not the missing tip of a horn.
+pub(crate) fn find_stump(hole: &Hole) -> Option<Stump> {
+    let (rim, around) = (hole.rim(), &hole.surroundings);
     let normals: Vec<Vec3> = hole.outside_normals.iter().flatten().copied().collect();
     if rim.len() >= SMALL || normals.is_empty() {
         return None;
@@ -102,9 +111,10 @@ pub(crate) fn find_stump(hole: &HoleShape, band: &Band) -> Option<Stump> {
     };
     let center = mean(&mut rim.iter().copied());
     let behind = mean(
-        &mut (0..band.points.len())
-            .filter(|&v| band.levels[v] == 1)
-            .map(|v| band.points[v]),
+        &mut around
+            .vertices_in(1..2)
+            .into_iter()
+            .map(|v| around.point(v)),
     );
     let mut spread = Matrix3::zeros();
     for p in rim {
@@ -122,10 +132,10 @@ pub(crate) fn find_stump(hole: &HoleShape, band: &Band) -> Option<Stump> {
         .map(|n| n.dot(&axis).abs().min(1.0).acos())
         .sum::<f64>()
         / count;
-    let onwards = axis * (center - behind).dot(&axis).signum();
-    let lean = normals.iter().map(|n| n.dot(&onwards)).sum::<f64>() / count;
+    let onward = axis * (center - behind).dot(&axis).signum();
+    let lean = normals.iter().map(|n| n.dot(&onward)).sum::<f64>() / count;
     let is_stump = angle > STEEP
         && eigen.eigenvalues[across] < FLAT * FLAT * eigen.eigenvalues.max()
         && lean > CONVERGING;
-    is_stump.then_some(Stump { center, onwards })
+    is_stump.then_some(Stump { center, onward })
 }

@@ -1,10 +1,12 @@
-//! The axis of a primitive, and what the normals of samples say about it.
+//! The axis of a primitive: how a surface of revolution changes when its axis moves, and how the axis is estimated from
+//! samples with normals.
 
+use crate::math::frame::axes_across;
 use crate::math::{Vec3, unit};
 use crate::methods::auto::surface::Sample;
 use nalgebra::{Matrix3, SymmetricEigen};
 
-/// Eigenvalues of a normal matrix below this part of the largest are rounding errors.
+/// Eigenvalues of a normal matrix below this part of the largest one are rounding errors.
 const SINGULAR: f64 = 1e-12;
 
 /// A directed line.
@@ -16,7 +18,8 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    /// Where `p` is: its height over the origin, its distance, and the unit vector from the axis towards it.
+    /// The height of `p` above the origin along the axis, its distance from the axis, and the unit vector from the axis
+    /// to `p`.
     pub(super) fn locate(&self, p: &Vec3) -> (f64, f64, Vec3) {
         let arm = p - self.origin;
         let height = arm.dot(&self.direction);
@@ -26,7 +29,7 @@ impl Axis {
 
     /// Two unit vectors that make a right-handed frame with the direction.
     pub(super) fn across(&self) -> [Vec3; 2] {
-        across(&self.direction)
+        axes_across(&self.direction)
     }
 
     /// The axis turned by two small angles.
@@ -39,9 +42,9 @@ impl Axis {
     }
 }
 
-/// A surface of revolution as a point sees it: its distance function there, to second order.
+/// The distance function of a surface of revolution at one point, to second order.
 pub(super) struct Revolved {
-    /// From the origin of the axis to the point.
+    /// Vector from the origin of the axis to the point.
     pub(super) arm: Vec3,
     pub(super) distance: f64,
     pub(super) normal: Vec3,
@@ -54,8 +57,8 @@ pub(super) struct Revolved {
 }
 
 impl Revolved {
-    /// How fast distance and normal change when the axis turns as [`Axis::turned`] says, and when it is shifted in
-    /// either direction across and along itself.
+    /// The derivatives of distance and normal by the motion of the axis: by the two angles of [`Axis::turned`], by
+    /// shifts in the two directions across the axis, and by a shift along it.
     pub(super) fn slopes(&self, across: &[Vec3; 2], direction: &Vec3) -> [(f64, Vec3); 5] {
         let [u, v] = across;
         [
@@ -67,7 +70,7 @@ impl Revolved {
         ]
     }
 
-    /// The surface moves by `shift`, seen from a point that rests.
+    /// The derivatives when the surface moves by `shift` and the point rests.
     fn when_moved(&self, shift: &Vec3) -> (f64, Vec3) {
         let bend = self.turn_along * self.along.dot(shift) * self.along
             + self.turn_meridian * self.meridian.dot(shift) * self.meridian;
@@ -81,18 +84,11 @@ impl Revolved {
 }
 
 /// Two unit vectors that make a right-handed frame with `direction`.
-pub(super) fn across(direction: &Vec3) -> [Vec3; 2] {
-    let least = direction.iamin();
-    let u = unit(direction.cross(&Vec3::ith(least, 1.0)));
-    [u, direction.cross(&u)]
-}
-
-/// `1 / length`; zero where a surface has its focus and no direction counts.
 pub(super) fn inverse(length: f64) -> f64 {
     if length > 0.0 { length.recip() } else { 0.0 }
 }
 
-/// Eigenvectors of a symmetric matrix, that of the smallest eigenvalue first.
+/// Eigenvectors of a symmetric matrix, in ascending order of their eigenvalues.
 pub(super) fn eigenvectors(matrix: Matrix3<f64>) -> [Vec3; 3] {
     let eigen = SymmetricEigen::new(matrix);
     let mut order = [0, 1, 2];
@@ -118,7 +114,7 @@ pub(super) fn covariance_of_normals(samples: &[Sample]) -> Matrix3<f64> {
         .sum()
 }
 
-/// The solution of a symmetric system, of smallest norm where it is singular.
+/// The solution of a symmetric positive semidefinite system; that of smallest norm if it is singular.
 pub(super) fn solve_symmetric(matrix: Matrix3<f64>, target: &Vec3) -> Vec3 {
     let eigen = SymmetricEigen::new(matrix);
     let cut = SINGULAR * eigen.eigenvalues.amax();
@@ -135,9 +131,8 @@ pub(super) fn solve_symmetric(matrix: Matrix3<f64>, target: &Vec3) -> Vec3 {
 /// The axis of the surface of revolution whose normals are nearest to the samples' normals.
 ///
 /// Based on: H. Pottmann, T. Randrup, "Rotational and helical surface approximation for reverse engineering",
-/// Computing 60, 1998: all normals of such a surface meet its axis, so that a velocity field `v(x) = c̄ + c × x`
-/// has `v·n = c̄·n + c·(x × n) = 0`; `Σ (v·n)²` is minimised with `|c| = 1`. `None` when the samples do not
-/// determine `c`.
+/// Computing 60, 1998. All normals of such a surface meet its axis. So there is a velocity field `v(x) = c̄ + c × x`
+/// with `v·n = c̄·n + c·(x × n) = 0`. `Σ (v·n)²` is minimized with `|c| = 1`. `None` when a number is not finite.
 pub(super) fn axis_of_revolution(samples: &[Sample]) -> Option<Axis> {
     let (mut moments, mut mixed) = (Matrix3::zeros(), Matrix3::zeros());
     for s in samples {

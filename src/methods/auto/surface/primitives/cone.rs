@@ -1,28 +1,29 @@
-//! Circular cones.
+//! Circular cones: distance, derivatives, and starts for the fit.
 
 use super::axis::{
     Axis, Revolved, axis_of_revolution, covariance_of_normals, eigenvectors, inverse,
     scatter_of_normals, solve_symmetric,
 };
-use super::{Fitted, Linear, Primitive, Shape, fit};
+use super::primitive::{Linear, Primitive, Shape};
+use super::{Fitted, fit};
 use crate::math::Vec3;
 use crate::methods::auto::surface::Sample;
 use crate::methods::auto::surface::frame::Fit;
 use nalgebra::SVector;
 
-/// One half of a circular cone: its axis begins at the apex.
+/// One half of a circular cone. The origin of its axis is the apex.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cone {
     axis: Axis,
-    /// Between the axis and the surface.
+    /// Angle between the axis and the surface.
     half_angle: f64,
-    /// 1 when the normals point away from the axis, else -1.
+    /// 1 when the normals point away from the axis, otherwise -1.
     side: f64,
 }
 
 impl Cone {
-    /// Fits a cone to the samples. `None` when they lie in one place, are fewer than its 6 degrees of freedom,
-    /// hold a number that is not finite, or lead to no cone.
+    /// Fits a cone to the samples. `None` when they lie in one place, are fewer than its 6 degrees of freedom, have a
+    /// number that is not finite, or determine no cone.
     pub(crate) fn fit(samples: &[Sample]) -> Option<Fit<Fitted<Self>>> {
         fit(samples)
     }
@@ -39,10 +40,11 @@ impl Shape for Cone {
     }
 }
 
-/// Turning the axis (2), shifting the apex (3), the half angle.
+/// Degrees of freedom: two angles of the axis, the position of the apex (3), the half angle.
 impl Primitive<6> for Cone {
-    /// The tangent planes all pass through the apex, `n·x = n·p`, and make the same angle with the axis,
-    /// `n·a` = const. The axis of revolution is a second suggestion for it, which sparse normals blur less.
+    /// Two starts with the same apex. All tangent planes pass through it: `n·x = n·p` is a linear system for it. Both
+    /// differ in the direction of the axis. All tangent planes make the same angle with it, `n·a` = const, which gives
+    /// the first; the axis of revolution gives the second, which is better where normals are sparse.
     fn starts(samples: &[Sample]) -> Vec<Self> {
         let target = samples.iter().map(|s| s.normal * s.normal.dot(&s.point));
         let apex = solve_symmetric(scatter_of_normals(samples), &target.sum());

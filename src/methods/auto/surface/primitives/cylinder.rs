@@ -1,13 +1,14 @@
-//! Circular cylinders.
+//! Circular cylinders: distance, derivatives, and starts for the fit.
 
 use super::axis::{Axis, Revolved, eigenvectors, inverse, scatter_of_normals, solve_symmetric};
-use super::{Fitted, Linear, Primitive, Shape, fit};
+use super::primitive::{Linear, Primitive, Shape};
+use super::{Fitted, fit};
 use crate::math::Vec3;
 use crate::methods::auto::surface::Sample;
 use crate::methods::auto::surface::frame::Fit;
 use nalgebra::{Matrix3, SVector};
 
-/// A circular cylinder. A positive radius makes the normals point away from the axis, a negative one towards it.
+/// A circular cylinder. Normals point away from the axis if the radius is positive, toward it if it is negative.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cylinder {
     axis: Axis,
@@ -16,7 +17,7 @@ pub(crate) struct Cylinder {
 
 impl Cylinder {
     /// Fits a cylinder to the samples. `None` when they lie in one place, are fewer than its 5 degrees of freedom,
-    /// hold a number that is not finite, or lead to no cylinder.
+    /// have a number that is not finite, or determine no cylinder.
     pub(crate) fn fit(samples: &[Sample]) -> Option<Fit<Fitted<Self>>> {
         fit(samples)
     }
@@ -30,10 +31,11 @@ impl Shape for Cylinder {
     }
 }
 
-/// Turning the axis (2), shifting it across (2), the radius.
+/// Degrees of freedom: two angles of the axis, its shift in two directions across it, the radius.
 impl Primitive<5> for Cylinder {
-    /// The normals of a cylinder are perpendicular to the axis: an eigenvector of `Σ n nᵀ`. For a given axis
-    /// all `p - r n` have the same projection along it, which is linear in it and in `r`.
+    /// One start for each eigenvector of `Σ n nᵀ` as the direction of the axis: the normals of a cylinder are
+    /// perpendicular to its axis. For a given direction, all `p - r n` have the same projection along it. That is a
+    /// linear system for this point and `r`.
     fn starts(samples: &[Sample]) -> Vec<Self> {
         let axes = eigenvectors(scatter_of_normals(samples));
         axes.into_iter()

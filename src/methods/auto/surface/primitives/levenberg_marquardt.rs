@@ -1,38 +1,41 @@
-//! Steps towards the primitive that fits best.
+//! The Levenberg-Marquardt method for fitting a primitive to samples with normals.
 //!
-//! Small and written for its purpose: the axis of a primitive is a direction, not three free numbers, so each
-//! step is taken in coordinates round the present primitive.
+//! The axis of a primitive is a direction with two degrees of freedom, not three. So each step is computed in
+//! coordinates round the present primitive, which a general solver does not do. Sources: see the module `primitives`.
+//! Cost: linear in the number of samples for each step.
 
-use super::Primitive;
+use super::primitive::Primitive;
 use crate::methods::auto::surface::Sample;
 use nalgebra::{SMatrix, SVector};
 
-/// Weight of a difference of normals against a distance in units of the samples' size: normals of triangles
-/// and jets are noisier than positions by about that.
+/// Weight of a difference of normals, relative to a distance in scaled coordinates. Normals are noisier than
+/// positions by about this factor.
 const NORMAL_WEIGHT: f64 = 0.3;
 
-/// The damping at the start, and its range; it falls after a success and rises after a failure.
+/// The damping at the start.
 const FIRST_DAMPING: f64 = 1e-3;
+/// Factors on the damping after a step that lowers the cost, and after one that does not.
 const DAMPING_FALL: f64 = 0.2;
 const DAMPING_RISE: f64 = 5.0;
+/// The iteration ends when the damping reaches this.
 const MOST_DAMPING: f64 = 1e9;
 
-/// A step that is shorter than this, or lowers the cost by less than this part, is the last one: what is left to
-/// gain then moves the surface by about 1e-4 of the residuals. Where these vanish each step is worth nearly all of
-/// the cost, so that samples of a primitive lead to it exactly.
+/// The iteration ends after a step that is shorter than `SETTLED_STEP` or lowers the cost by less than the share
+/// `SETTLED_FALL`. Further steps would move the surface by about 1e-4 of the residuals. If the samples lie exactly on a
+/// primitive, each step removes nearly all of the cost, and the iteration goes on until it is reached.
 const SETTLED_STEP: f64 = 1e-12;
 const SETTLED_FALL: f64 = 1e-8;
 
-/// The longest step in any degree of freedom: the samples have the size one.
+/// Upper bound on a step in any degree of freedom, in scaled coordinates.
 const LONGEST_STEP: f64 = 2.0;
 
-/// A primitive and its sum of squares.
+/// A primitive and its cost.
 pub(super) struct FitProgress<P> {
     pub(super) cost: f64,
     pub(super) primitive: P,
 }
 
-/// At most `steps` steps from `start`. `None` when the start or its cost is no number.
+/// Improves `start` by at most `steps` steps. `None` when its cost is not finite.
 pub(super) fn improve<const D: usize, P: Primitive<D>>(
     start: P,
     samples: &[Sample],

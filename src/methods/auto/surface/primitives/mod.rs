@@ -1,15 +1,19 @@
-//! Cylinders, cones and tori by non-linear least squares.
+//! Fits cylinders, cones and tori by non-linear least squares.
 //!
-//! A primitive is moved so that the samples' distances from it and, weighted, the differences between their
-//! normals and its own become small, by the method of K. Levenberg, "A method for the solution of certain
-//! non-linear problems in least squares", Quarterly of Applied Mathematics 2(2), 1944, and D. Marquardt, "An
-//! algorithm for least-squares estimation of nonlinear parameters", SIAM J. Appl. Math. 11(2), 1963. Each kind
-//! says where to start: the normals know the axis.
+//! The cost is a sum of squares: the distances of the samples from the primitive, and, with a weight, the differences
+//! between their normals and those of the primitive. It is minimized by the method of K. Levenberg, "A method for the
+//! solution of certain non-linear problems in least squares", Quarterly of Applied Mathematics 2(2), 1944, and
+//! D. Marquardt, "An algorithm for least-squares estimation of nonlinear parameters", SIAM J. Appl. Math. 11(2), 1963.
+//! Each kind computes several starts from the samples and their normals. The best of them are improved, first for a few
+//! steps, then the best one or two to the end.
+//!
+//! Cost: linear in the number of samples. Not guaranteed: that the global minimum is found.
 
 mod axis;
 pub(crate) mod cone;
 pub(crate) mod cylinder;
 mod levenberg_marquardt;
+mod primitive;
 #[cfg(test)]
 mod tests;
 pub(crate) mod torus;
@@ -17,67 +21,26 @@ pub(crate) mod torus;
 use super::frame::{Fit, Frame, rms_distance};
 use super::{Implicit, Sample};
 use crate::math::Vec3;
-use axis::{Axis, Revolved};
 use levenberg_marquardt::{FitProgress, improve};
-use nalgebra::SVector;
+use primitive::{Primitive, Shape};
 use std::ops::Range;
 
-/// Starts that are followed at all, those that fit best as they are, and steps spent on each before the better ones
-/// are chosen.
+/// Number of starts that are improved: those with the lowest cost.
 const TRIALS: usize = 4;
+/// Steps of each start before the finalists are chosen.
 const TRIAL_STEPS: usize = 6;
 
-/// Steps spent on the chosen ones; a good start needs five to ten.
+/// Upper bound on the steps of a finalist. A good start needs five to ten.
 const STEPS: usize = 40;
 
-/// Starts that are followed to the end, at most; the second only when its sum of squares is between these parts of the
-/// first's. Nearer ones have as a rule reached the same minimum, and farther ones rarely overtake it; not guaranteed.
+/// Upper bound on the number of finalists.
 const FINALISTS: usize = 2;
+/// The second finalist is followed only if its cost, divided by that of the first, is in this range. Below it, both
+/// have usually reached the same minimum; above it, the second one rarely overtakes.
 const OTHER_MINIMUM: Range<f64> = 1.01..4.0;
 
-/// Samples per degree of freedom below which a fit means nothing.
+/// Lower bound on the samples for each degree of freedom.
 const SAMPLES_PER_FREEDOM: usize = 1;
-
-/// A surface with a closed formula for the distance from it.
-pub(crate) trait Shape: Copy + Send + Sync {
-    /// The distance of `p`, negative behind the surface, and its gradient, a unit vector.
-    fn distance_and_normal(&self, p: &Vec3) -> (f64, Vec3);
-}
-
-/// A surface with `D` degrees of freedom that knows where to begin.
-pub(crate) trait Primitive<const D: usize>: Shape {
-    /// Where to begin, for samples of the size one round the origin.
-    fn starts(samples: &[Sample]) -> Vec<Self>;
-
-    /// The surface after a small step in its degrees of freedom.
-    fn moved(&self, step: &SVector<f64, D>) -> Self;
-
-    /// The axis of revolution.
-    fn axis(&self) -> &Axis;
-
-    /// Distance and normal at `p`, and how fast they change with the degrees of freedom; `across` are the two
-    /// directions across the axis.
-    fn linearize(&self, across: &[Vec3; 2], p: &Vec3) -> Linear<D>;
-}
-
-/// Distance and normal of a primitive at a point, to first order in its degrees of freedom.
-pub(crate) struct Linear<const D: usize> {
-    distance: f64,
-    normal: Vec3,
-    distance_slopes: SVector<f64, D>,
-    normal_slopes: [Vec3; D],
-}
-
-impl<const D: usize> Linear<D> {
-    fn new(here: &Revolved, slopes: [(f64, Vec3); D]) -> Self {
-        Self {
-            distance: here.distance,
-            normal: here.normal,
-            distance_slopes: SVector::from_fn(|k, _| slopes[k].0),
-            normal_slopes: slopes.map(|s| s.1),
-        }
-    }
-}
 
 /// A primitive in the coordinates of the samples that it was fitted to.
 #[derive(Clone, Copy, Debug)]
@@ -86,11 +49,11 @@ pub(crate) struct Fitted<P> {
     frame: Frame,
 }
 
-/// Fits a primitive to the samples. `None` when they lie in one place, are fewer than its degrees of freedom,
-/// hold a number that is not finite, or do not determine one (as coplanar samples determine no cylinder).
+/// Fits a primitive to the samples. `None` when they lie in one place, are fewer than its degrees of freedom, have a
+/// number that is not finite, or do not determine a primitive (as coplanar samples determine no cylinder).
 ///
 /// # Complexity
-/// Linear in the number of samples, with some hundred evaluations of the distance per sample and start.
+/// Linear in the number of samples, with some hundred evaluations of the distance for each sample and start.
 fn fit<const D: usize, P: Primitive<D>>(samples: &[Sample]) -> Option<Fit<Fitted<P>>> {
     if samples.len() < SAMPLES_PER_FREEDOM * D {
         return None;

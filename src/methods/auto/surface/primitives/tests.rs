@@ -5,6 +5,7 @@ use super::cone::Cone;
 use super::cylinder::Cylinder;
 use super::torus::Torus;
 use super::*;
+use nalgebra::SVector;
 
 /// A fit, its largest distance from the clean surface, and the angle between their normals.
 fn measure<const D: usize, P: Primitive<D>>(surface: Parametric, noise: f64) -> (f64, f64, f64) {

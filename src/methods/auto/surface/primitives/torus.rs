@@ -1,30 +1,32 @@
-//! Tori.
+//! Tori: distance, derivatives, and starts for the fit.
 
 use super::axis::{
     Axis, Revolved, axis_of_revolution, covariance_of_normals, eigenvectors, inverse,
     solve_symmetric,
 };
-use super::{Fitted, Linear, Primitive, Shape, fit};
+use super::primitive::{Linear, Primitive, Shape};
+use super::{Fitted, fit};
 use crate::math::Vec3;
 use crate::methods::auto::surface::Sample;
 use crate::methods::auto::surface::frame::Fit;
 use nalgebra::{Matrix3, SVector};
 
-/// Radii of the tube to try, in units of the samples' size, where the axis is only guessed.
+/// Radii of the tube for the starts whose axis is only guessed, in scaled coordinates.
 const TRIAL_TUBES: [f64; 4] = [0.6, 1.6, -0.6, -1.6];
 
-/// A torus. A positive tube radius makes the normals point out of the tube, a negative one into it.
+/// A torus. Normals point out of the tube if its radius is positive, into it if it is negative.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Torus {
     axis: Axis,
-    /// Of the circle that the tube follows.
+    /// Radius of the circle that is the center line of the tube.
     radius: f64,
+    /// Radius of the tube.
     tube: f64,
 }
 
 impl Torus {
-    /// Fits a torus to the samples. `None` when they lie in one place, are fewer than its 7 degrees of freedom,
-    /// hold a number that is not finite, or lead to no torus.
+    /// Fits a torus to the samples. `None` when they lie in one place, are fewer than its 7 degrees of freedom, have a
+    /// number that is not finite, or determine no torus.
     pub(crate) fn fit(samples: &[Sample]) -> Option<Fit<Fitted<Self>>> {
         fit(samples)
     }
@@ -45,11 +47,11 @@ impl Shape for Torus {
     }
 }
 
-/// Turning the axis (2), shifting the center (3), the two radii.
+/// Degrees of freedom: two angles of the axis, the position of the center (3), the two radii.
 impl Primitive<7> for Torus {
-    /// With the axis of revolution of the samples' normals, all `p - r n` lie on one circle round it, which is
-    /// linear in `r`, the circle's radius and its height. In case that axis is poor: the principal directions
-    /// of the normals as axes, with several tube radii.
+    /// The first start has the axis of revolution of the samples' normals. All `p - r n` lie on one circle round it;
+    /// that is a linear system for `r`, the radius of the circle and its height. The other starts help where this axis
+    /// is poor: they have the principal directions of the normals as axes, with several radii of the tube.
     fn starts(samples: &[Sample]) -> Vec<Self> {
         let mut starts = Vec::new();
         if let Some(axis) = axis_of_revolution(samples) {

@@ -64,7 +64,7 @@ impl fmt::Display for LoopClass {
 /// promised.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundaryLoop {
-    /// Position in [`BoundaryLoops::loops`].
+    /// Position in [`BoundaryLoops::loops`](crate::BoundaryLoops::loops).
     pub id: usize,
     /// Vertices in the direction in which the triangles along the loop run; edge `i` runs from vertex
     /// `i` to vertex `i + 1`, the last one back to vertex 0.

@@ -9,7 +9,7 @@ use crate::mesh::attributes::{AttributeValues, Attributes, ScalarType};
 pub struct MeshData {
     /// One position for each vertex. Single precision is converted exactly.
     pub positions: Vec<[f64; 3]>,
-    /// Three indices of vertices per triangle; polygons are cut into triangles by [`read`].
+    /// Three indices of vertices per triangle; polygons are cut into triangles by [`read`](crate::io::read).
     pub triangles: Vec<[u32; 3]>,
     /// Other data of vertices: colors, normals, ...
     pub vertex_attributes: Attributes,
